@@ -18,7 +18,7 @@
 #include "scenes/InUse.h"
 #include "scenes/Pose.h"
 #include "scenes/RigLinks.h"
-#include "validation/bench/ShadowKey.h"
+#include "validation/bench/MethodKey.h"
 
 namespace tessera::app {
 
@@ -214,9 +214,9 @@ std::string whyNoScattering(const engine::Setting& setting, const Request& reque
 std::string whyNoPartOfShadows(const engine::Setting& setting, const Request& request,
                                const frame::PreparedView& prepared) {
     if (std::string why = setting.whyIdle(request); !why.empty()) return why;
-    const auto rows = validation::shadowSettingTable();
-    const auto row = std::ranges::find(rows, setting.key, &validation::ShadowSetting::key);
-    const bool matters = row == rows.end() || row->matters(prepared.lights, request.settings.shadowFilter);
+    const auto rows = infoOf(validation::MethodKind::Shadows).settings;
+    const auto row = std::ranges::find(rows, setting.key, &validation::MethodSetting::key);
+    const bool matters = row == rows.end() || row->matters({request.scene, request.settings, prepared});
     return matters ? "" : std::string(row->absent);
 }
 

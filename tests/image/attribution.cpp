@@ -61,10 +61,10 @@ protected:
             point.key.technique = infoOf(technique).name;
             point.key.layout = point.settings.layout == frame::exactLayout().layout ? "exact" : "packed";
             point.key.rangeTolerance = point.settings.rangeTolerance;
-            const frame::PackedLights lights = engine::prepareView(scene, technique, point.settings).lights;
-            if (lights.shadowed != 0) point.key.shadow = validation::shadowKeyOf(lights, point.settings);
-            point.key.subsurface = validation::subsurfaceKeyOf(scene, settings);
-            if (scene.environment) point.key.environment = validation::environmentKeyOf(point.settings);
+            const frame::PreparedView prepared = engine::prepareView(scene, technique, point.settings);
+            const validation::MethodFacts facts{scene, point.settings, prepared};
+            for (const validation::MethodKindInfo& info : validation::methodKindTable())
+                if (info.isUsed(facts)) point.key.method(info.kind) = methodKeyOf(info.kind, facts);
         }
         return validation::attributeErrors(context(), truth, "reference", points);
     }

@@ -13,7 +13,6 @@
 #include "renderer/frame/MaterialFeatures.h"
 #include "scenes/InUse.h"
 #include "scenes/Shadows.h"
-#include "validation/bench/AreaKey.h"
 #include "validation/compare/TechniqueCompare.h"
 #include "validation/figures/ErrorFigures.h"
 
@@ -51,6 +50,12 @@ struct Part {
     std::string (*text)(const scenes::Scene& scene, const frame::FrameSettings& settings);
     void (*take)(frame::FrameSettings& settings, const frame::FrameSettings& own);
 };
+
+/// Of kinds whose method follows from scene and settings alone.
+std::string textOf(MethodKind kind, const scenes::Scene& scene, const frame::FrameSettings& settings) {
+    const frame::PreparedView none{};
+    return methodText(kind, methodKeyOf(kind, {scene, settings, none}));
+}
 
 bool isArea(const scenes::Light& light) {
     return scenes::infoOf(light.type).isArea;
@@ -101,19 +106,20 @@ constexpr Part kParts[] = {
          for (scenes::Light& light : ground.scene.lights)
              if (isArea(light)) light.enabled = false;
      },
-     [](const scenes::Scene&, const frame::FrameSettings& settings) { return areaText(areaKeyOf(settings)); },
+     [](const scenes::Scene& scene, const frame::FrameSettings& settings) {
+         return textOf(MethodKind::AreaLights, scene, settings);
+     },
      [](frame::FrameSettings& settings, const frame::FrameSettings& own) { settings.area = own.area; }},
     {"environment", true, [](const Ground& whole) { return frame::isLitByEnvironment(whole.scene, whole.settings); },
      [](Ground& ground) { ground.settings.environment.light = frame::EnvironmentLight::Off; },
-     [](const scenes::Scene&, const frame::FrameSettings& settings) {
-         return environmentText(environmentKeyOf(settings));
+     [](const scenes::Scene& scene, const frame::FrameSettings& settings) {
+         return textOf(MethodKind::Environment, scene, settings);
      },
      [](frame::FrameSettings& settings, const frame::FrameSettings& own) { settings.environment = own.environment; }},
     {"subsurface", false, [](const Ground& whole) { return scenes::anyScatters(whole.scene); },
      [](Ground& ground) { ground.settings.subsurface = scenes::SubsurfaceMethod::None; },
      [](const scenes::Scene& scene, const frame::FrameSettings& settings) {
-         const std::optional<SubsurfaceKey> key = subsurfaceKeyOf(scene, settings);
-         return key ? subsurfaceText(*key) : std::string();
+         return textOf(MethodKind::Subsurface, scene, settings);
      },
      [](frame::FrameSettings& settings, const frame::FrameSettings& own) {
          settings.subsurface = own.subsurface;
@@ -297,10 +303,11 @@ private:
 
     /// How a point's shadows differ from traced ones with rays enough; empty: not at all.
     static std::string shadowCause(const BenchPoint& point) {
-        if (!point.key.shadow) return {};
-        const bool isNone = point.key.shadow->filter == kNoShadows;
-        if (!isNone && !point.key.shadow->usesMaps() && point.key.shadow->values.empty()) return {};
-        return isNone ? shadowText(*point.key.shadow) : "shadow filter " + shadowText(*point.key.shadow);
+        const std::optional<MethodKey>& shadows = point.key.method(MethodKind::Shadows);
+        if (!shadows) return {};
+        const bool isNone = shadows->name == kNoShadows;
+        if (!isNone && !usesMaps(*shadows) && shadows->values.empty()) return {};
+        return (isNone ? "" : "shadow filter ") + methodText(MethodKind::Shadows, *shadows);
     }
 
     void addShadows() {

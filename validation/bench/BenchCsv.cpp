@@ -52,12 +52,12 @@ Column counterColumn(const char* name, std::uint64_t BenchCounters::*figure) {
             }};
 }
 
-/// A setting of one of a key's methods.
-template <typename Method>
-Column methodColumn(std::string_view name, std::optional<Method> PointKey::*method) {
-    return {name, [name, method](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
-                const std::optional<Method>& own = result.key.*method;
-                const std::string* const text = own ? own->text(name) : nullptr;
+/// The name of a method, or with `name` one of its settings.
+Column methodColumn(MethodKind kind, std::optional<std::string_view> name = {}) {
+    return {name.value_or(infoOf(kind).key),
+            [kind, name](const BenchGroup&, const BenchResult& result, std::optional<bool>) {
+                const std::optional<MethodKey>& key = result.key.method(kind);
+                const std::string* const text = !key ? nullptr : name ? key->text(*name) : &key->name;
                 return text ? *text : "";
             }};
 }
@@ -76,10 +76,6 @@ std::vector<Column> makeColumns() {
         {"lightOn", [](const G&, const R& r, P) { return r.key.lightOn.value_or(""); }},
         {"layout", [](const G&, const R& r, P) { return r.key.layout; }},
         {"range", [](const G&, const R& r, P) { return fmt::format("{}", r.key.rangeTolerance); }},
-        {kShadowFilterKey, [](const G&, const R& r, P) { return r.key.shadow ? r.key.shadow->filter : ""; }},
-        {kSubsurfaceKey, [](const G&, const R& r, P) { return r.key.subsurface ? r.key.subsurface->method : ""; }},
-        {kEnvironmentKey, [](const G&, const R& r, P) { return r.key.environment ? r.key.environment->light : ""; }},
-        {kAreaKey, [](const G&, const R& r, P) { return r.key.area ? r.key.area->method : ""; }},
         {"lights", [](const G& g, const R&, P) { return fmt::format("{}", g.lights); }},
         {"width", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.x); }},
         {"height", [](const G& g, const R&, P) { return fmt::format("{}", g.sizePixels.y); }},
@@ -110,16 +106,12 @@ std::vector<Column> makeColumns() {
         counterColumn("triangles", &BenchCounters::triangles),
         counterColumn("draws", &BenchCounters::draws),
     };
-    for (const ShadowSetting& row : shadowSettingTable())
-        table.insert(std::ranges::find(table, kSubsurfaceKey, &Column::name), methodColumn(row.key, &PointKey::shadow));
-    for (const SubsurfaceSetting& row : subsurfaceSettingTable())
-        table.insert(std::ranges::find(table, kEnvironmentKey, &Column::name),
-                     methodColumn(row.key, &PointKey::subsurface));
-    for (const EnvironmentSetting& row : environmentSettingTable())
-        table.insert(std::ranges::find(table, kAreaKey, &Column::name), methodColumn(row.key, &PointKey::environment));
-    for (const AreaSetting& row : areaSettingTable())
-        table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name),
-                     methodColumn(row.key, &PointKey::area));
+    std::vector<Column> methods;
+    for (const MethodKindInfo& info : methodKindTable()) {
+        methods.push_back(methodColumn(info.kind));
+        for (const MethodSetting& row : info.settings) methods.push_back(methodColumn(info.kind, row.key));
+    }
+    table.insert(std::ranges::find(table, std::string_view("lights"), &Column::name), methods.begin(), methods.end());
     return table;
 }
 

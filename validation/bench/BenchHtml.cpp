@@ -1,6 +1,7 @@
 #include "validation/bench/BenchHtml.h"
 
 #include <algorithm>
+#include <ranges>
 #include <set>
 
 #include <fmt/format.h>
@@ -19,26 +20,17 @@ namespace tessera::validation {
 
 namespace {
 
-/// What shapes of marks tell in plots: the method of subsurface scattering, how the light of the environment or of
-/// area lights is found, or the filter of shadows where several were measured, else the G-buffer layout.
+/// What shapes of marks show in plots: the method of a kind of which several were measured, else the G-buffer layout.
 struct MarkKind {
-    const char* name;
-    const char* words; ///< what shapes tell
-    std::string (*of)(const PointKey& key);
+    std::string_view name, words;
+    const MethodKindInfo* kind = nullptr; ///< null: the layout
+
+    std::string of(const PointKey& key) const {
+        if (!kind) return key.layout;
+        const std::optional<MethodKey>& method = key.method(kind->kind);
+        return method ? method->name : "none";
+    }
 };
-constexpr MarkKind kByLayout{"layout", "Circles store every G-buffer channel in fp32, the other shapes pack it.",
-                             [](const PointKey& key) { return key.layout; }};
-constexpr MarkKind kBySubsurface{"subsurface", "Shapes tell what happens below surfaces.", [](const PointKey& key) {
-                                     return key.subsurface ? key.subsurface->method : std::string("none");
-                                 }};
-constexpr MarkKind kByEnvironment{
-    "environment light", "Shapes tell how the environment's light is found.",
-    [](const PointKey& key) { return key.environment ? key.environment->light : std::string("none"); }};
-constexpr MarkKind kByArea{"area lights", "Shapes tell how the light of area lights is found.",
-                           [](const PointKey& key) { return key.area ? key.area->method : std::string("none"); }};
-constexpr MarkKind kByShadow{"shadow filter", "Shapes tell how shadows are found.", [](const PointKey& key) {
-                                 return key.shadow ? key.shadow->filter : std::string(kNoShadows);
-                             }};
 
 std::set<std::string> marksOf(const BenchRecord& record, const MarkKind& kind) {
     std::set<std::string> marks;
@@ -47,10 +39,12 @@ std::set<std::string> marksOf(const BenchRecord& record, const MarkKind& kind) {
     return marks;
 }
 
-const MarkKind& markKindOf(const BenchRecord& record) {
-    for (const MarkKind* const kind : {&kBySubsurface, &kByEnvironment, &kByArea, &kByShadow})
-        if (marksOf(record, *kind).size() > 1) return *kind;
-    return kByLayout;
+MarkKind markKindOf(const BenchRecord& record) {
+    for (const MethodKindInfo& info : methodKindTable() | std::views::reverse) {
+        const MarkKind kind{info.markKind, info.markWords, &info};
+        if (marksOf(record, kind).size() > 1) return kind;
+    }
+    return {"layout", "Circles store every G-buffer channel in fp32, the other shapes pack it."};
 }
 
 Json plotPoint(const BenchResult& result, const MarkKind& kind, std::optional<bool> pareto, bool isBest) {
@@ -76,7 +70,7 @@ std::string growthText(const ScalingCurve& curve) {
 
 /// What bench.js draws.
 Json plotData(const BenchRecord& record) {
-    const MarkKind& kind = markKindOf(record);
+    const MarkKind kind = markKindOf(record);
     Json data = {
         {"techniques", Json::array()}, {"markKind", kind.name}, {"groups", Json::array()}, {"curves", Json::array()}};
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) data["techniques"].push_back(info.name);
@@ -126,10 +120,7 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     std::string how = best.key.tilePixels ? fmt::format("{} {}, ", best.key.culling, *best.key.tilePixels) : "";
     how += best.key.layout;
     if (best.key.isLitByCompute()) how += ", compute";
-    if (best.key.shadow) how += ", " + shadowText(*best.key.shadow);
-    if (best.key.subsurface) how += ", " + subsurfaceText(*best.key.subsurface);
-    if (best.key.environment) how += ", " + environmentText(*best.key.environment);
-    if (best.key.area) how += ", " + areaText(*best.key.area);
+    for (const std::string& text : methodTexts(best.key.methods)) how += ", " + text;
     if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
     std::string html =
         unfinished + "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
@@ -160,7 +151,7 @@ std::string paretoHtml(const BenchRecord& record, const BenchGroup& headline) {
         choices += fmt::format("<option value=\"{}\"{}>{}</option>", i,
                                &record.groups[i] == &headline ? " selected=\"selected\"" : "",
                                escapedHtml(groupName(record.groups[i])));
-    const MarkKind& kind = markKindOf(record);
+    const MarkKind kind = markKindOf(record);
     const std::string shapes = marksOf(record, kind).size() < 2 ? "" : fmt::format(" {}", kind.words);
     return fmt::format(
         "<section id=\"front\">\n<h2>Error against run time</h2>\n"

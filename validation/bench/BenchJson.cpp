@@ -100,44 +100,18 @@ std::optional<BenchError> errorFrom(const Json& json) {
     return error;
 }
 
-/// The values of a table's settings that a point has.
-template <typename Setting>
-std::vector<KeyValue> valuesFrom(const Json& json, std::span<const Setting> table) {
-    std::vector<KeyValue> values;
-    for (const Setting& row : table) {
+std::optional<MethodKey> methodFrom(const Json& json, const MethodKindInfo& info) {
+    const Json& name = json.at(std::string(info.key));
+    if (name.is_null()) return {};
+    MethodKey key{name.get<std::string>()};
+    for (const MethodSetting& row : info.settings) {
         const Json& value = json.at(std::string(row.key));
         if (value.is_boolean())
-            values.push_back({row.key, value.get<bool>() ? "on" : "off"});
+            key.values.push_back({row.key, value.get<bool>() ? "on" : "off"});
         else if (!value.is_null())
-            values.push_back({row.key, fmt::format("{}", value.get<double>())});
+            key.values.push_back({row.key, fmt::format("{}", value.get<double>())});
     }
-    return values;
-}
-
-/// And as they are written: numbers, or true and false.
-template <typename Key, typename Setting>
-void addValues(Json& json, const std::optional<Key>& key, std::span<const Setting> table) {
-    for (const Setting& row : table) {
-        const std::string* const text = key ? key->text(row.key) : nullptr;
-        const bool isSwitch = text && (*text == "on" || *text == "off");
-        json[std::string(row.key)] = !text ? Json(nullptr) : isSwitch ? Json(*text == "on") : Json::parse(*text);
-    }
-}
-
-template <typename Method, typename Table>
-std::optional<Method> methodFrom(const Json& json, std::string_view key, const Table& table) {
-    const Json& name = json.at(std::string(key));
-    if (name.is_null()) return {};
-    return Method{name.get<std::string>(), valuesFrom(json, table)};
-}
-
-/// Why the fields of a method are null: `none` where a point has none, and else absent(row).
-template <typename Method, typename Table, typename Absent>
-void explainMethod(const std::optional<Method>& own, std::string_view key, const Table& table, const char* none,
-                   const Absent& absent, std::map<std::string, std::string>& why) {
-    if (!own) why[std::string(key)] = none;
-    for (const auto& row : table)
-        if (!own || !own->text(row.key)) why[std::string(row.key)] = own ? std::string(absent(row)) : none;
+    return key;
 }
 
 BenchResult resultFrom(const Json& json) {
@@ -148,10 +122,7 @@ BenchResult resultFrom(const Json& json) {
     read(json, "layout", result.key.layout);
     read(json, "lightOn", result.key.lightOn);
     read(json, "range", result.key.rangeTolerance);
-    result.key.shadow = methodFrom<ShadowKey>(json, kShadowFilterKey, shadowSettingTable());
-    result.key.subsurface = methodFrom<SubsurfaceKey>(json, kSubsurfaceKey, subsurfaceSettingTable());
-    result.key.environment = methodFrom<EnvironmentKey>(json, kEnvironmentKey, environmentSettingTable());
-    result.key.area = methodFrom<AreaKey>(json, kAreaKey, areaSettingTable());
+    for (const MethodKindInfo& info : methodKindTable()) result.key.method(info.kind) = methodFrom(json, info);
     read(json, "cullOn", result.builder);
     read(json, "cullNormals", result.normalTest);
     result.times.cpuMs = spreadFrom(json.at("cpuMs")).value();
@@ -205,14 +176,16 @@ Json picturesJson(const BenchGroup& group) {
 } // namespace
 
 Json choicesJson(const PointKey& key) {
-    Json json = {{kShadowFilterKey, key.shadow ? Json(key.shadow->filter) : Json(nullptr)}};
-    addValues(json, key.shadow, shadowSettingTable());
-    json[std::string(kSubsurfaceKey)] = key.subsurface ? Json(key.subsurface->method) : Json(nullptr);
-    addValues(json, key.subsurface, subsurfaceSettingTable());
-    json[std::string(kEnvironmentKey)] = key.environment ? Json(key.environment->light) : Json(nullptr);
-    addValues(json, key.environment, environmentSettingTable());
-    json[std::string(kAreaKey)] = key.area ? Json(key.area->method) : Json(nullptr);
-    addValues(json, key.area, areaSettingTable());
+    Json json;
+    for (const MethodKindInfo& info : methodKindTable()) {
+        const std::optional<MethodKey>& method = key.method(info.kind);
+        json[std::string(info.key)] = method ? Json(method->name) : Json(nullptr);
+        for (const MethodSetting& row : info.settings) { // numbers, or true and false
+            const std::string* const text = method ? method->text(row.key) : nullptr;
+            const bool isSwitch = text && (*text == "on" || *text == "off");
+            json[std::string(row.key)] = !text ? Json(nullptr) : isSwitch ? Json(*text == "on") : Json::parse(*text);
+        }
+    }
     return json;
 }
 
@@ -223,20 +196,14 @@ Json pointJson(const BenchGroup& group, const BenchResult& result, std::optional
     std::map<std::string, std::string> why = result.why;
     if (!result.key.tilePixels) why["tile"] = why["cullOn"] = why["cullNormals"] = "no light lists";
     if (!result.key.lightOn) why["lightOn"] = "the technique lights in fragment shaders only";
-    const PointKey& key = result.key;
-    const bool isUnshadowed = key.shadow && key.shadow->filter == kNoShadows;
-    explainMethod(
-        key.shadow, kShadowFilterKey, shadowSettingTable(), "there are no shadows",
-        [&](const ShadowSetting& row) { return isUnshadowed ? "there are no shadows" : row.absent; }, why);
-    explainMethod(
-        key.subsurface, kSubsurfaceKey, subsurfaceSettingTable(), "no material has a subsurface",
-        [](const SubsurfaceSetting&) { return "no light spreads"; }, why);
-    explainMethod(
-        key.environment, kEnvironmentKey, environmentSettingTable(), "no environment shines",
-        [](const EnvironmentSetting& row) { return row.absent; }, why);
-    explainMethod(
-        key.area, kAreaKey, areaSettingTable(), "no area light shines",
-        [](const AreaSetting&) { return "the light of area lights is not sampled"; }, why);
+    for (const MethodKindInfo& info : methodKindTable()) {
+        const std::optional<MethodKey>& method = result.key.method(info.kind);
+        if (!method) why[std::string(info.key)] = info.absent;
+        const bool isOff = method && method->name == info.off && !info.offAbsent.empty();
+        for (const MethodSetting& row : info.settings)
+            if (!method || !method->text(row.key))
+                why[std::string(row.key)] = !method ? info.absent : isOff ? info.offAbsent : row.absent;
+    }
     if (!result.error && !why.contains("error")) why["error"] = "not measured yet";
     if (!pareto) why["pareto"] = result.error ? "the error could not be measured" : why["error"];
     Json json = {{"scene", group.scene},

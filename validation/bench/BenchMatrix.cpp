@@ -16,10 +16,7 @@
 #include "engine/SettingValues.h"
 #include "scenes/Limits.h"
 #include "scenes/import/JsonReader.h"
-#include "validation/bench/AreaKey.h"
-#include "validation/bench/EnvironmentKey.h"
-#include "validation/bench/ShadowKey.h"
-#include "validation/bench/SubsurfaceKey.h"
+#include "validation/bench/MethodKey.h"
 
 namespace tessera::validation {
 
@@ -33,17 +30,22 @@ using engine::Technique;
     throw InputError(fmt::format("{}: \"{}\": {}", source, key, why));
 }
 
+std::string nameIn(const std::vector<std::string_view>& names, const ParsedJson& value, const std::string& source,
+                   const std::string& key) {
+    if (!value.is_string())
+        refuse(source, key, fmt::format("{} is no name; {}", value.dump(), suggestNames("", names)));
+    const std::string name = value.get<std::string>();
+    if (std::ranges::find(names, name) == names.end())
+        refuse(source, key, fmt::format("unknown '{}': {}", name, suggestNames(name, names)));
+    return name;
+}
+
 template <typename Table>
 const auto& rowNamed(const Table& table, const ParsedJson& value, const std::string& source, const std::string& key) {
     std::vector<std::string_view> names;
     for (const auto& row : table) names.push_back(row.name);
-    if (!value.is_string())
-        refuse(source, key, fmt::format("{} is no name; {}", value.dump(), suggestNames("", names)));
-    const std::string name = value.get<std::string>();
-    for (const auto& row : table) {
-        if (row.name == name) return row;
-    }
-    refuse(source, key, fmt::format("unknown '{}': {}", name, suggestNames(name, names)));
+    const std::string name = nameIn(names, value, source, key);
+    return *std::ranges::find_if(table, [&](const auto& row) { return row.name == name; });
 }
 
 int numberIn(const ParsedJson& value, int least, int most, const std::string& source, const std::string& key) {
@@ -57,19 +59,6 @@ glm::ivec2 sizeIn(const ParsedJson& value, const std::string& source, const std:
     refuse(
         source, key,
         fmt::format("{} is no size such as \"1280x720\", each side 1 to {}", value.dump(), frame::kLargestSidePixels));
-}
-
-struct ShadowName {
-    std::string_view name;
-};
-
-const std::vector<ShadowName>& shadowNames() {
-    static const std::vector<ShadowName> names = [] {
-        std::vector<ShadowName> all{{kNoShadows}};
-        for (const frame::ShadowFilterInfo& info : frame::shadowFilterTable()) all.push_back({info.name});
-        return all;
-    }();
-    return names;
 }
 
 /// The text of a setting whose values are numbers, or of one that is left open.
@@ -153,28 +142,13 @@ std::vector<Key> makeKeys() {
          }},
         {"size", [](BenchMatrix& m, const ParsedJson& v,
                     const std::string& s) { m.sizesPixels.push_back(sizeIn(v, s, "size")); }},
-        {kShadowFilterKey,
-         [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
-             const std::string key(kShadowFilterKey);
-             addSettingValue(m, kShadowFilterKey, std::string(rowNamed(shadowNames(), v, s, key).name));
-         }},
     };
-    for (const ShadowSetting& row : shadowSettingTable()) table.push_back(settingKey(row.key));
-    table.push_back({kSubsurfaceKey, [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
-                         const auto& row = rowNamed(scenes::subsurfaceMethods(), v, s, std::string(kSubsurfaceKey));
-                         addSettingValue(m, kSubsurfaceKey, std::string(row.name));
-                     }});
-    for (const SubsurfaceSetting& row : subsurfaceSettingTable()) table.push_back(settingKey(row.key));
-    table.push_back({kEnvironmentKey, [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
-                         const auto& row = rowNamed(frame::environmentLightTable(), v, s, std::string(kEnvironmentKey));
-                         addSettingValue(m, kEnvironmentKey, std::string(row.name));
-                     }});
-    for (const EnvironmentSetting& row : environmentSettingTable()) table.push_back(settingKey(row.key));
-    table.push_back({kAreaKey, [](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
-                         const auto& row = rowNamed(frame::areaLightsTable(), v, s, std::string(kAreaKey));
-                         addSettingValue(m, kAreaKey, std::string(row.name));
-                     }});
-    for (const AreaSetting& row : areaSettingTable()) table.push_back(settingKey(row.key));
+    for (const MethodKindInfo& info : methodKindTable()) {
+        table.push_back({info.key, [&info](BenchMatrix& m, const ParsedJson& v, const std::string& s) {
+                             addSettingValue(m, info.key, nameIn(info.names(), v, s, std::string(info.key)));
+                         }});
+        for (const MethodSetting& row : info.settings) table.push_back(settingKey(row.key));
+    }
     return table;
 }
 

@@ -12,8 +12,7 @@ namespace tessera::validation {
 /// What `tessera bench` runs through: the Cartesian product of these lists. An empty list stands for one entry, what
 /// the settings of the command line say.
 struct BenchMatrix {
-    /// A setting of shadows, of subsurface scattering or of the environment's light: its key and the texts of its
-    /// values (ShadowKey.h, SubsurfaceKey.h, EnvironmentKey.h).
+    /// A method, or a setting of one (MethodKey.h): its key and the texts of its values.
     struct SettingValues {
         std::string_view key;
         std::vector<std::string> texts;

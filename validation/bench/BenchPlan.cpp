@@ -1,17 +1,18 @@
 #include "validation/bench/BenchPlan.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <set>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "engine/ChooseCulling.h"
 #include "engine/ChooseLighting.h"
 #include "engine/PrepareView.h"
-#include "renderer/frame/EnvironmentMap.h"
 #include "renderer/frame/LightBuffer.h"
 #include "renderer/frame/LightRange.h"
 #include "scenes/Fingerprint.h"
@@ -55,28 +56,25 @@ void tellEachOnce(std::vector<SkippedPoint>& skipped) {
     skipped = std::move(once);
 }
 
-/// What the points of a group have in common with every technique: a range tolerance, how shadows are found, what
-/// happens below surfaces and how the light of the environment and of area lights is found.
+/// What the points of a group have in common with every technique: a range tolerance and methods.
 struct Variant {
     std::optional<double> range; ///< as the matrix has it
     frame::FrameSettings settings;
-    std::optional<ShadowKey> shadow;
-    std::vector<frame::ShadowFace> faces; ///< of its maps
-    std::optional<SubsurfaceKey> subsurface;
-    std::optional<EnvironmentKey> environment;
-    std::optional<AreaKey> area;
+    std::vector<frame::ShadowFace> faces; ///< of its shadow maps
+    MethodKeys methods{};
 };
 
 /// Other settings of maps are no other frame where the faces are the same.
 bool isSameFrame(const Variant& a, const Variant& b) {
-    if (a.subsurface != b.subsurface || a.environment != b.environment || a.area != b.area) return false;
-    if (!a.shadow || !b.shadow) return a.shadow == b.shadow;
-    const auto isSame = [&](const ShadowSetting& row) {
-        const std::string *const textA = a.shadow->text(row.key), *const textB = b.shadow->text(row.key);
-        return row.isOfMaps || (textA && textB ? *textA == *textB : textA == textB);
+    const auto isSame = [&](const MethodKindInfo& info) {
+        const auto &ofA = a.methods[std::size_t(info.kind)], &ofB = b.methods[std::size_t(info.kind)];
+        if (!ofA || !ofB) return ofA == ofB;
+        return ofA->name == ofB->name && std::ranges::all_of(info.settings, [&](const MethodSetting& row) {
+                   const std::string *const textA = ofA->text(row.key), *const textB = ofB->text(row.key);
+                   return row.decidesMapsOnly || (textA && textB ? *textA == *textB : textA == textB);
+               });
     };
-    return a.shadow->filter == b.shadow->filter && a.faces == b.faces &&
-           std::ranges::all_of(shadowSettingTable(), isSame);
+    return a.faces == b.faces && std::ranges::all_of(methodKindTable(), isSame);
 }
 
 struct Choice {
@@ -86,8 +84,10 @@ struct Choice {
 
 /// The setting that a key of the matrix sets to a text.
 const engine::Setting& settingFor(std::string_view key, const std::string& text) {
-    if (key != kShadowFilterKey) return engine::settingOf(key);
-    return engine::settingOf(text == kNoShadows ? "shadows" : "shadowFilter");
+    for (const MethodKindInfo& info : methodKindTable())
+        if (info.key == key)
+            return engine::settingOf(text == info.off && !info.offSetting.empty() ? info.offSetting : info.setting);
+    return engine::settingOf(key);
 }
 
 std::vector<Choice> choicesOf(const BenchMatrix& matrix, const frame::FrameSettings& settings) {
@@ -108,15 +108,10 @@ std::vector<Choice> choicesOf(const BenchMatrix& matrix, const frame::FrameSetti
 }
 
 std::string whySame(const Variant& same) {
-    std::string text;
-    const auto add = [&text](const std::string& choice) { text += (text.empty() ? "" : ", ") + choice; };
-    if (same.shadow) add(shadowText(*same.shadow));
-    if (same.subsurface) add(subsurfaceText(*same.subsurface));
-    if (same.environment) add(environmentText(*same.environment));
-    if (same.area) add(areaText(*same.area));
-    return text.empty() ? "there are no shadows, no material has a subsurface, no environment shines and no light in "
-                          "view has a surface"
-                        : "it is the same frame as " + text;
+    const std::vector<std::string> texts = methodTexts(same.methods);
+    return texts.empty() ? "there are no shadows, no material has a subsurface, no environment shines and no light in "
+                           "view has a surface"
+                         : fmt::format("it is the same frame as {}", fmt::join(texts, ", "));
 }
 
 /// The lights and maps of a frame, which are the same for all techniques.
@@ -137,18 +132,20 @@ std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, cons
         frame::FrameSettings settings = group.settings;
         if (range) settings.rangeTolerance = *range;
         if (!rangesMatter(scene)) settings.rangeTolerance = 0.0;
-        // Where the truth has none of its light, the matrix adds none.
-        const bool hasEnvironment = frame::isLitByEnvironment(scene, settings);
-        const bool hasShadows = preparedFor(scene, settings).lights.shadowed > 0;
+        // Where the truth has nothing of a kind, the matrix adds none.
+        const frame::PreparedView whole = preparedFor(scene, settings);
+        std::array<bool, kMethodKinds> isUsed{};
+        for (const MethodKindInfo& info : methodKindTable())
+            isUsed[std::size_t(info.kind)] = info.isUsed({scene, settings, whole});
         std::vector<Variant> ofRange;
         for (Choice& choice : choicesOf(matrix, settings)) {
-            if (!hasEnvironment) choice.settings.environment = settings.environment;
+            if (!isUsed[std::size_t(MethodKind::Environment)]) choice.settings.environment = settings.environment;
             const frame::PreparedView prepared = preparedFor(scene, choice.settings);
-            Variant variant{
-                range, choice.settings, {}, prepared.shadowMaps.faces, subsurfaceKeyOf(scene, choice.settings), {}, {}};
-            if (hasEnvironment) variant.environment = environmentKeyOf(choice.settings);
-            if (prepared.spec.areaLights > 0) variant.area = areaKeyOf(choice.settings);
-            if (hasShadows) variant.shadow = shadowKeyOf(prepared.lights, variant.settings);
+            Variant variant{range, choice.settings, prepared.shadowMaps.faces};
+            for (const MethodKindInfo& info : methodKindTable())
+                if (isUsed[std::size_t(info.kind)])
+                    variant.methods[std::size_t(info.kind)] =
+                        methodKeyOf(info.kind, {scene, variant.settings, prepared});
             const auto same =
                 std::ranges::find_if(ofRange, [&](const Variant& other) { return isSameFrame(other, variant); });
             if (same == ofRange.end())
@@ -242,10 +239,7 @@ private:
                      {},
                      layoutName(point.settings.layout),
                      point.settings.rangeTolerance,
-                     variant.shadow,
-                     variant.subsurface,
-                     variant.environment,
-                     variant.area,
+                     variant.methods,
                      {}};
         if (info_.choosesStage) point.key.lightOn = infoOf(engine::chooseLighting(point.settings)).name;
         if (choice.method != Method::None) point.key.tilePixels = choice.tilePixels;

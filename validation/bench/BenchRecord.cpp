@@ -79,21 +79,17 @@ std::string groupTable(const BenchGroup& group) {
     };
     const bool hasRange = any([](const PointKey& key) { return key.rangeTolerance > 0.0; });
     const bool hasCompute = any([](const PointKey& key) { return key.isLitByCompute(); });
-    const bool hasShadows = any([](const PointKey& key) { return key.shadow.has_value(); });
-    const bool hasSubsurface = any([](const PointKey& key) { return key.subsurface.has_value(); });
-    const bool hasEnvironment = any([](const PointKey& key) { return key.environment.has_value(); });
-    const bool hasArea = any([](const PointKey& key) { return key.area.has_value(); });
-    const bool hasLongColumn = hasShadows || hasSubsurface || hasEnvironment || hasArea;
+    std::vector<MethodKind> kinds;
+    for (const MethodKindInfo& info : methodKindTable())
+        if (any([&](const PointKey& key) { return key.method(info.kind).has_value(); })) kinds.push_back(info.kind);
+    const bool hasLongColumn = !kinds.empty();
     // Their columns need room: names of techniques stay whole, and a long title breaks.
     table.addColumn("technique", Table::Align::Left, hasLongColumn ? Table::Cells::Whole : Table::Cells::Break);
     table.addColumn("culling", Table::Align::Left, Table::Cells::Whole);
     table.addColumn("layout");
     if (hasCompute) table.addColumn("lit on");
     if (hasRange) table.addColumn("range", Table::Align::Right, Table::Cells::Whole);
-    if (hasShadows) table.addColumn("shadows");
-    if (hasSubsurface) table.addColumn("subsurface");
-    if (hasEnvironment) table.addColumn("environment");
-    if (hasArea) table.addColumn("area lights");
+    for (const MethodKind kind : kinds) table.addColumn(std::string(infoOf(kind).title));
     for (const char* title : {"ms", "p95"}) table.addColumn(title, Table::Align::Right, Table::Cells::Whole);
     table.addColumn("to lower bound", Table::Align::Right, hasLongColumn ? Table::Cells::Break : Table::Cells::Whole);
     for (const char* title : {"to lit", "visited", "relMSE", "bias"})
@@ -108,10 +104,7 @@ std::string groupTable(const BenchGroup& group) {
             key.technique, key.tilePixels ? fmt::format("{}, {}", key.culling, *key.tilePixels) : "none", key.layout};
         if (hasCompute) row.push_back(key.lightOn.value_or("-"));
         if (hasRange) row.push_back(key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "-");
-        if (hasShadows) row.push_back(key.shadow ? shadowText(*key.shadow) : "-");
-        if (hasSubsurface) row.push_back(key.subsurface ? subsurfaceText(*key.subsurface) : "-");
-        if (hasEnvironment) row.push_back(key.environment ? environmentText(*key.environment) : "-");
-        if (hasArea) row.push_back(key.area ? areaText(*key.area) : "-");
+        for (const MethodKind kind : kinds) row.push_back(key.method(kind) ? methodText(kind, *key.method(kind)) : "-");
         for (const std::string& cell :
              {fmt::format("{:.1f}", result.times.cpuMs.median), fmt::format("{:.1f}", result.times.cpuMs.p95),
               figure(result.ratioToFloor, "{:.2f}"), figure(result.ratioToLitFloor, "{:.2f}"),

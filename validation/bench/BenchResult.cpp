@@ -14,10 +14,7 @@ std::string pointName(const PointKey& key) {
     name += ", " + key.layout;
     if (key.isLitByCompute()) name += ", compute";
     if (key.rangeTolerance > 0.0) name += fmt::format(", range {:g}", key.rangeTolerance);
-    if (key.shadow) name += ", " + shadowText(*key.shadow);
-    if (key.subsurface) name += ", " + subsurfaceText(*key.subsurface);
-    if (key.environment) name += ", " + environmentText(*key.environment);
-    if (key.area) name += ", " + areaText(*key.area);
+    for (const std::string& text : methodTexts(key.methods)) name += ", " + text;
     return name;
 }
 

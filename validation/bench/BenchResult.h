@@ -5,10 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "validation/bench/AreaKey.h"
-#include "validation/bench/EnvironmentKey.h"
-#include "validation/bench/ShadowKey.h"
-#include "validation/bench/SubsurfaceKey.h"
+#include "validation/bench/MethodKey.h"
 #include "validation/lower_bound/LowerBoundBench.h"
 #include "validation/timing/FrameTimer.h"
 
@@ -22,22 +19,19 @@ struct PointKey {
     std::optional<int> tilePixels; ///< none without light lists
     std::string layout;            ///< of the G-buffer; "exact" for techniques without one
     double rangeTolerance = 0.0;
-    std::optional<ShadowKey> shadow{}; ///< none where the settings of the command line leave no light any shadows
-    std::optional<SubsurfaceKey> subsurface{}; ///< none where no material has a subsurface
-    /// None where the settings of the command line leave the scene no light of an environment.
-    std::optional<EnvironmentKey> environment{};
-    std::optional<AreaKey> area{}; ///< none where no area light shines
+    MethodKeys methods{}; ///< none where the settings of the command line leave a kind nothing to change
     /// What lights the G-buffer, a name of frame::lightingStageTable(); none of techniques without the choice.
     std::optional<std::string> lightOn{};
 
     /// Whether compute shaders light the G-buffer: fragment shaders are usual.
     bool isLitByCompute() const { return lightOn == infoOf(frame::LightingStage::Compute).name; }
+    std::optional<MethodKey>& method(MethodKind kind) { return methods[std::size_t(kind)]; }
+    const std::optional<MethodKey>& method(MethodKind kind) const { return methods[std::size_t(kind)]; }
     bool operator==(const PointKey&) const = default;
 };
 
 /// "tiled_deferred, tile_2.5d 16, packed", with ", compute" behind it where that lights the G-buffer, ", range 0.01"
-/// behind it where lights are ended, shadowText() where there are shadows, subsurfaceText() where there are
-/// subsurfaces, environmentText() where an environment shines, and areaText() where an area light does.
+/// behind it where lights are ended, and methodTexts().
 std::string pointName(const PointKey& key);
 
 /// Counters of a frame's work, beside its times. A figure that could not be measured is none, and `why` says why.

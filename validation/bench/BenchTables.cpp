@@ -1,6 +1,7 @@
 #include "validation/bench/BenchTables.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
 
@@ -105,23 +106,19 @@ std::string pointsHtml(const BenchGroup& group) {
                                      [](const BenchResult& result) { return result.error && result.error->flip; });
     std::string html = headHtml({"Technique", "Culling", "Layout"});
     html.erase(html.rfind("</tr>"));
-    const bool hasShadows = std::any_of(group.results.begin(), group.results.end(),
-                                        [](const BenchResult& result) { return result.key.shadow.has_value(); });
-    const bool hasSubsurface = std::any_of(group.results.begin(), group.results.end(),
-                                           [](const BenchResult& result) { return result.key.subsurface.has_value(); });
     const bool hasCompute = std::any_of(group.results.begin(), group.results.end(),
                                         [](const BenchResult& result) { return result.key.isLitByCompute(); });
-    const bool hasEnvironment = std::any_of(group.results.begin(), group.results.end(), [](const BenchResult& result) {
-        return result.key.environment.has_value();
-    });
-    const bool hasArea = std::any_of(group.results.begin(), group.results.end(),
-                                     [](const BenchResult& result) { return result.key.area.has_value(); });
+    std::vector<std::pair<MethodKind, std::string>> kinds; // with their titles
+    for (const MethodKindInfo& info : methodKindTable()) {
+        std::string title(info.title);
+        title[0] = char(std::toupper(static_cast<unsigned char>(title[0])));
+        if (std::ranges::any_of(group.results,
+                                [&](const BenchResult& result) { return result.key.method(info.kind).has_value(); }))
+            kinds.emplace_back(info.kind, std::move(title));
+    }
     if (hasCompute) html += "<th scope=\"col\">Lit on</th>";
     if (hasRange) html += "<th scope=\"col\">Range</th>";
-    if (hasShadows) html += "<th scope=\"col\">Shadows</th>";
-    if (hasSubsurface) html += "<th scope=\"col\">Subsurface</th>";
-    if (hasEnvironment) html += "<th scope=\"col\">Environment</th>";
-    if (hasArea) html += "<th scope=\"col\">Area lights</th>";
+    for (const auto& [kind, title] : kinds) html += fmt::format("<th scope=\"col\">{}</th>", title);
     for (const char* title :
          {"ms a frame", "p95", "To lower bound", "To lit lower bound", "Visited", "relMSE", "p99 rel", "Bias"})
         html += fmt::format("<th scope=\"col\">{}</th>", title);
@@ -146,18 +143,11 @@ std::string pointsHtml(const BenchGroup& group) {
         if (hasCompute) html += fmt::format("<td data-label=\"Lit on\">{}</td>\n", key.lightOn.value_or("&ndash;"));
         if (hasRange)
             html += cellHtml("Range", key.rangeTolerance > 0.0 ? fmt::format("{:g}", key.rangeTolerance) : "&ndash;");
-        if (hasShadows)
-            html += fmt::format("<td data-label=\"Shadows\">{}</td>\n",
-                                key.shadow ? escapedHtml(shadowText(*key.shadow)) : "&ndash;");
-        if (hasSubsurface)
-            html += fmt::format("<td data-label=\"Subsurface\">{}</td>\n",
-                                key.subsurface ? escapedHtml(subsurfaceText(*key.subsurface)) : "&ndash;");
-        if (hasEnvironment)
-            html += fmt::format("<td data-label=\"Environment\">{}</td>\n",
-                                key.environment ? escapedHtml(environmentText(*key.environment)) : "&ndash;");
-        if (hasArea)
-            html += fmt::format("<td data-label=\"Area lights\">{}</td>\n",
-                                key.area ? escapedHtml(areaText(*key.area)) : "&ndash;");
+        for (const auto& [kind, title] : kinds) {
+            const std::optional<MethodKey>& method = key.method(kind);
+            html += fmt::format("<td data-label=\"{}\">{}</td>\n", title,
+                                method ? escapedHtml(methodText(kind, *method)) : "&ndash;");
+        }
         html += cellHtml("ms a frame", fmt::format("{:.1f}", result.times.cpuMs.median)) +
                 cellHtml("p95", fmt::format("{:.1f}", result.times.cpuMs.p95)) +
                 cellHtml("To lower bound", orDash(result.ratioToFloor, "{:.2f}")) +

@@ -47,9 +47,11 @@ public:
                 const BenchOptions& options, GroupState& state)
         : context_(context), planned_(planned), options_(options), state_(state), group_(state.group),
           renderer_(context, scene),
-          variesSubsurface_(std::ranges::any_of(
-              planned.points,
-              [&](const BenchPoint& point) { return point.key.subsurface != planned.points.front().key.subsurface; })),
+          variesSubsurface_(std::ranges::any_of(planned.points,
+                                                [&](const BenchPoint& point) {
+                                                    return point.key.method(MethodKind::Subsurface) !=
+                                                           planned.points.front().key.method(MethodKind::Subsurface);
+                                                })),
           lowerBound_(renderer_, planned.points.front().settings) {
         group_.scene = planned.scene;
         group_.lights = planned.lights;
@@ -86,10 +88,11 @@ private:
     /// spread light where the points differ in it; that of these spreads it in every frame, else what is compared would
     /// be done before the first one.
     engine::Renderer& rendererOf(const BenchPoint& point, const scenes::Scene& scene) {
-        const PointKey& key = point.key;
-        const std::string maps = key.shadow && key.shadow->usesMaps() ? shadowText(*key.shadow) : "";
-        const bool spreads = variesSubsurface_ && key.subsurface && !key.subsurface->values.empty();
-        const std::string kept = maps + (spreads ? "; " + subsurfaceText(*key.subsurface) : "");
+        const std::optional<MethodKey>&shadows = point.key.method(MethodKind::Shadows),
+              &subsurface = point.key.method(MethodKind::Subsurface);
+        const bool spreads = variesSubsurface_ && subsurface && !subsurface->values.empty();
+        const std::string kept = (shadows && usesMaps(*shadows) ? methodText(MethodKind::Shadows, *shadows) : "") +
+                                 (spreads ? "; " + methodText(MethodKind::Subsurface, *subsurface) : "");
         if (kept.empty()) return renderer_;
         std::unique_ptr<engine::Renderer>& renderer = otherRenderers_[kept];
         if (!renderer) {

@@ -124,17 +124,13 @@ std::string speedText(double speedup) {
 
 namespace {
 
-/// Says also how forward found its shadows, scattered light below surfaces and found the light of the environment
-/// and of area lights, where the result did otherwise.
+/// With forward's methods where the result has others.
 std::string againstForward(const BenchResult& result, const BenchResult& baseline) {
     std::string how;
     const auto add = [&how](const std::string& text) { how += (how.empty() ? " (" : ", ") + text; };
-    if (baseline.key.shadow && baseline.key.shadow != result.key.shadow) add(shadowText(*baseline.key.shadow));
-    if (baseline.key.subsurface && baseline.key.subsurface != result.key.subsurface)
-        add(subsurfaceText(*baseline.key.subsurface));
-    if (baseline.key.environment && baseline.key.environment != result.key.environment)
-        add(environmentText(*baseline.key.environment));
-    if (baseline.key.area && baseline.key.area != result.key.area) add(areaText(*baseline.key.area));
+    for (const MethodKindInfo& info : methodKindTable())
+        if (const auto& method = baseline.key.method(info.kind); method && method != result.key.method(info.kind))
+            add(methodText(info.kind, *method));
     if (!how.empty()) how += ")";
     if (isAsFast(result.times.cpuMs, baseline.times.cpuMs))
         return fmt::format("as fast as forward{} within the spread of the times", how);

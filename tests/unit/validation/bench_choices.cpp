@@ -158,11 +158,12 @@ TEST(ShadowMatrix, theTruthHasTheShadowsOfTheCommandLineWhateverThePointsHave) {
 BenchGroup shadowedGroup() {
     BenchGroup group = madeUpGroup(4, {madeUpResult("forward", 100, 1e-9), madeUpResult("forward", 20, 2e-3),
                                        madeUpResult("deferred", 10, 5e-5), madeUpResult("deferred", 8, 0.4)});
-    group.results[0].key.shadow = {"traced", {}};
-    group.results[1].key.shadow = {"hard", {{"shadowResolution", "1024"}, {"shadowBudget", "64"}}};
-    group.results[2].key.shadow = {"pcf",
-                                   {{"shadowWidth", "5"}, {"shadowResolution", "1024"}, {"shadowBudget", "0.5"}}};
-    group.results[3].key.shadow = ShadowKey{};
+    group.results[0].key.method(MethodKind::Shadows) = MethodKey{"traced", {}};
+    group.results[1].key.method(MethodKind::Shadows) =
+        MethodKey{"hard", {{"shadowResolution", "1024"}, {"shadowBudget", "64"}}};
+    group.results[2].key.method(MethodKind::Shadows) =
+        MethodKey{"pcf", {{"shadowWidth", "5"}, {"shadowResolution", "1024"}, {"shadowBudget", "0.5"}}};
+    group.results[3].key.method(MethodKind::Shadows) = MethodKey{std::string(kNoShadows)};
     return group;
 }
 
@@ -200,7 +201,7 @@ TEST(ShadowPoints, tablesAndThePageNameThem) {
     EXPECT_THAT(page, HasSubstr("<td data-label=\"Shadows\">pcf, 5x5, 1024 texels, 0.5 MiB</td>"));
     EXPECT_THAT(page, HasSubstr(R"("markKind":"shadow filter")"));
     EXPECT_THAT(page, HasSubstr(R"("mark":"pcf")"));
-    for (BenchResult& result : record.groups[0].results) result.key.shadow.reset();
+    for (BenchResult& result : record.groups[0].results) result.key.method(MethodKind::Shadows).reset();
     EXPECT_THAT(benchHtml(record, record.groups[0], {}).sections, HasSubstr(R"("markKind":"layout")"));
     EXPECT_THAT(benchTable(record), Not(HasSubstr("shadows")));
 }
@@ -220,7 +221,7 @@ TEST(ShadowPoints, curvesJoinPointsThatFindShadowsAlike) {
     BenchGroup few = shadowedGroup(), many = shadowedGroup();
     many.lights = 16;
     EXPECT_EQ(scalingCurves(std::vector<BenchGroup>{few, many}).size(), 4u);
-    many.results[1].key.shadow->values[0].text = "512";
+    many.results[1].key.method(MethodKind::Shadows)->values[0].text = "512";
     EXPECT_EQ(scalingCurves(std::vector<BenchGroup>{few, many}).size(), 3u);
 }
 
@@ -240,9 +241,9 @@ TEST(SubsurfaceMatrix, methodsAndSettingsOfSpreadLightAreVariedWhereTheyChangeTh
 
 TEST(SubsurfacePoints, theRecordHasThemAndReadsThemAgain) {
     BenchGroup group = shadowedGroup();
-    group.results[0].key.subsurface = {
+    group.results[0].key.method(MethodKind::Subsurface) = MethodKey{
         "texture_space_diffusion", {{"diffusionTexels", "256"}, {"diffusionGaussians", "8"}, {"diffusionHalf", "on"}}};
-    group.results[1].key.subsurface = {"wrap", {}};
+    group.results[1].key.method(MethodKind::Subsurface) = MethodKey{"wrap", {}};
     const nlohmann::ordered_json points = groupJson(group)["points"];
     EXPECT_EQ(points[0]["subsurface"], "texture_space_diffusion");
     EXPECT_EQ(points[0]["diffusionTexels"], 256);
@@ -368,9 +369,10 @@ TEST(LightOnPoints, theRecordHasItAndReadsItAgain) {
 
 TEST(EnvironmentPoints, theRecordHasThemAndReadsThemAgain) {
     BenchGroup group = shadowedGroup();
-    group.results[0].key.environment = {"sampled", {{"environmentSamples", "16"}, {"environmentCompensation", "on"}}};
-    group.results[1].key.environment = {"split_sum", {{"environmentCompensation", "off"}}};
-    group.results[2].key.environment = {"off", {}};
+    group.results[0].key.method(MethodKind::Environment) =
+        MethodKey{"sampled", {{"environmentSamples", "16"}, {"environmentCompensation", "on"}}};
+    group.results[1].key.method(MethodKind::Environment) = MethodKey{"split_sum", {{"environmentCompensation", "off"}}};
+    group.results[2].key.method(MethodKind::Environment) = MethodKey{"off", {}};
     const nlohmann::ordered_json points = groupJson(group)["points"];
     EXPECT_EQ(points[0]["environmentLight"], "sampled");
     EXPECT_EQ(points[0]["environmentSamples"], 16);
@@ -396,8 +398,8 @@ TEST(EnvironmentPoints, theRecordHasThemAndReadsThemAgain) {
 
 TEST(AreaPoints, theRecordHasThemAndReadsThemAgain) {
     BenchGroup group = shadowedGroup();
-    group.results[0].key.area = {"sampled", {{"areaSamples", "64"}}};
-    group.results[1].key.area = {"ltc", {}};
+    group.results[0].key.method(MethodKind::AreaLights) = MethodKey{"sampled", {{"areaSamples", "64"}}};
+    group.results[1].key.method(MethodKind::AreaLights) = MethodKey{"ltc", {}};
     const nlohmann::ordered_json points = groupJson(group)["points"];
     EXPECT_EQ(points[0]["areaLights"], "sampled");
     EXPECT_EQ(points[0]["areaSamples"], 64);

@@ -203,7 +203,8 @@ TEST(BenchJson, aGroupComesBackFromItsJsonDigitForDigit) {
     group.results[1].key.culling = "tile_2.5d";
     group.results[1].key.tilePixels = 16;
     group.results[1].key.rangeTolerance = 0.1;
-    group.results[1].key.shadow = {"pcf", {{"shadowWidth", "5"}, {"shadowBudget", "0.1"}}};
+    group.results[1].key.method(MethodKind::Shadows) =
+        MethodKey{"pcf", {{"shadowWidth", "5"}, {"shadowBudget", "0.1"}}};
     group.results[1].builder = "cpu";
     group.results[1].normalTest = "where_worth";
     group.pictures = {{"forward, exact", {"forward, exact"}, "a.png", "b.png", 0xfedcba9876543210ull}};
