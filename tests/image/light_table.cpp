@@ -9,9 +9,9 @@
 
 #include "tests/image/ImageTest.h"
 #include "tests/support/CullingScenes.h"
+#include "tests/support/LightTable.h"
 #include "tests/support/ShaderMutant.h"
 #include "validation/culling/LightOracle.h"
-#include "validation/culling/LightTable.h"
 
 namespace tessera {
 namespace {

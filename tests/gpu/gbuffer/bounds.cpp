@@ -1,4 +1,4 @@
-// The error of every stored value against the bound that is derived from its field (renderer/frame/GBufferBounds.h).
+// The error of every stored value against the bound that is derived from its field (tests/support/GBufferBounds.h).
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "renderer/frame/GBufferBounds.h"
 #include "tests/gpu/gbuffer/Surfaces.h"
+#include "tests/support/GBufferBounds.h"
 #include "tests/support/Random.h"
 
 namespace tessera {

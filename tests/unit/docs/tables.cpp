@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "engine/Settings.h"
-#include "renderer/frame/GBufferBounds.h"
 #include "scenes/AnimatedProperties.h"
 #include "scenes/Light.h"
+#include "tests/support/GBufferBounds.h"
 
 namespace tessera {
 namespace {

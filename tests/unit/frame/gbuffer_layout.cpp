@@ -8,8 +8,8 @@
 
 #include <gmock/gmock.h>
 
-#include "renderer/frame/GBufferBounds.h"
 #include "renderer/frame/MaterialFeatures.h"
+#include "tests/support/GBufferBounds.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::frame {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/LightTable.h"
 #include "validation/culling/LightOracle.h"
-#include "validation/culling/LightTable.h"
 
 namespace tessera::validation {
 namespace {

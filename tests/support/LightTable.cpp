@@ -1,4 +1,4 @@
-#include "validation/culling/LightTable.h"
+#include "tests/support/LightTable.h"
 
 #include <algorithm>
 #include <cassert>

@@ -1,4 +1,4 @@
-#include "renderer/frame/GBufferBounds.h"
+#include "tests/support/GBufferBounds.h"
 
 #include <algorithm>
 #include <cassert>
