@@ -107,9 +107,9 @@ TEST(GltfAnimation, aHundredThousandKeysOfAFileAreFollowed) {
 TEST(GltfAnimation, channelsThatCannotBeAreLeftOutWithOneWarning) {
     Builder builder = movingTriangle();
     Json& channels = builder.json["animations"][0]["channels"];
-    for (const char* pointer :
-         {"/nodes/0/extensions/KHR_node_selectability/selectable", "/cameras/0/orthographic/xmag",
-          "/nodes/1/extensions/KHR_node_selectability/selectable", "/extensions/EXT_lights_image_based/lights/0/intensity"})
+    for (const char* pointer : {"/nodes/0/extensions/KHR_node_selectability/selectable", "/cameras/0/orthographic/xmag",
+                                "/nodes/1/extensions/KHR_node_selectability/selectable",
+                                "/extensions/EXT_lights_image_based/lights/0/intensity"})
         channels.push_back({{"sampler", 0}, {"target", pointerTo(pointer)}});
     const Scene scene = builder.import();
     ASSERT_EQ(scene.warnings.size(), 1u);
