@@ -70,19 +70,6 @@ std::optional<std::size_t> nodeOfWeights(const tiny::AnimationChannel& channel) 
     return path == infoOf(AnimatedProperty::Weights).path ? node : std::nullopt;
 }
 
-std::vector<bool> nodesHiddenByClips(const tiny::Model& model) {
-    std::vector<bool> areHidden(model.nodes.size());
-    for (const tiny::Animation& animation : model.animations)
-        for (const tiny::AnimationChannel& channel : animation.channels) {
-            const std::string changed = changedBy(channel);
-            std::string_view path = changed;
-            const std::optional<std::size_t> node = cutIndex(path, kNodesPointer);
-            if (node && *node < areHidden.size() && path == infoOf(AnimatedProperty::NodeVisibility).path)
-                areHidden[*node] = model.nodes[*node].matrix.empty();
-        }
-    return areHidden;
-}
-
 std::string kindOf(std::string_view pointer) {
     std::string kind;
     for (std::size_t i = 0; i < pointer.size(); ++i) {
@@ -117,18 +104,6 @@ std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_
     if (!elementAt(context_.document.model.nodes, index).matrix.empty()) return {}; // has no parts to change
     if (info->property == AnimatedProperty::NodeVisibility) return visibilityOf(index);
     animated.targets.push_back(restNode(index));
-    return animated;
-}
-
-/// Scales the node to nothing, and lights below, which have no size, to no intensity.
-Rigging::Animated Rigging::visibilityOf(int index) {
-    Animated animated{AnimatedProperty::NodeVisibility, 1};
-    const glm::vec3 scale(scaleOf(elementAt(context_.document.model.nodes, index)));
-    animated.multiplied.push_back({AnimatedProperty::Scale, restNode(index), {scale.x, scale.y, scale.z}});
-    for (const int light : lightsHidden_[index])
-        animated.multiplied.push_back({AnimatedProperty::LightIntensity,
-                                       restNumber(AnimatedProperty::LightIntensity, light),
-                                       {context_.scene.lights[std::size_t(light)].intensity}});
     return animated;
 }
 

@@ -197,18 +197,6 @@ void Rigging::addCamera(int index) {
     cameras_[elementAt(context_.document.model.nodes, index).camera].push_back(element);
 }
 
-void Rigging::findHiddenLights() {
-    const std::vector<Node>& nodes = context_.scene.nodes;
-    std::vector<int> hiddenBy(nodes.size(), kNone); // of the document, by node of the scene
-    for (std::size_t index = 0; index < sceneNodes_.size(); ++index)
-        if (isHiddenByClips_[index] && sceneNodes_[index] != kNone)
-            hiddenBy[std::size_t(sceneNodes_[index])] = int(index);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-        if (hiddenBy[i] == kNone && nodes[i].parent != kNone) hiddenBy[i] = hiddenBy[std::size_t(nodes[i].parent)];
-    for (const Carried& light : carriedLights_)
-        if (const int by = hiddenBy[std::size_t(light.node)]; by != kNone) lightsHidden_[by].push_back(light.element);
-}
-
 /// Keeps those that a clip may move.
 void Rigging::carryAll() {
     Scene& scene = context_.scene;
@@ -224,6 +212,45 @@ void Rigging::carryAll() {
     };
     keep(carriedLights_, scene.rig.lights);
     keep(carriedCameras_, scene.rig.cameras);
+}
+
+// ---- Visibility ---------------------------------------------------------------------------------------------------
+
+std::vector<bool> nodesHiddenByClips(const tiny::Model& model) {
+    std::vector<bool> areHidden(model.nodes.size());
+    for (const tiny::Animation& animation : model.animations)
+        for (const tiny::AnimationChannel& channel : animation.channels) {
+            const std::string changed = changedBy(channel);
+            std::string_view path = changed;
+            const std::optional<std::size_t> node = cutIndex(path, kNodesPointer);
+            if (node && *node < areHidden.size() && path == infoOf(AnimatedProperty::NodeVisibility).path)
+                areHidden[*node] = model.nodes[*node].matrix.empty();
+        }
+    return areHidden;
+}
+
+void Rigging::findHiddenLights() {
+    const std::vector<Node>& nodes = context_.scene.nodes;
+    std::vector<int> hiddenBy(nodes.size(), kNone); // of the document, by node of the scene
+    for (std::size_t index = 0; index < sceneNodes_.size(); ++index)
+        if (isHiddenByClips_[index] && sceneNodes_[index] != kNone)
+            hiddenBy[std::size_t(sceneNodes_[index])] = int(index);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (hiddenBy[i] == kNone && nodes[i].parent != kNone) hiddenBy[i] = hiddenBy[std::size_t(nodes[i].parent)];
+    for (const Carried& light : carriedLights_)
+        if (const int by = hiddenBy[std::size_t(light.node)]; by != kNone) lightsHidden_[by].push_back(light.element);
+}
+
+/// Scales the node to nothing, and lights below, which have no size, to no intensity.
+Rigging::Animated Rigging::visibilityOf(int index) {
+    Animated animated{AnimatedProperty::NodeVisibility, 1};
+    const glm::vec3 scale(scaleOf(elementAt(context_.document.model.nodes, index)));
+    animated.multiplied.push_back({AnimatedProperty::Scale, restNode(index), {scale.x, scale.y, scale.z}});
+    for (const int light : lightsHidden_[index])
+        animated.multiplied.push_back({AnimatedProperty::LightIntensity,
+                                       restNumber(AnimatedProperty::LightIntensity, light),
+                                       {context_.scene.lights[std::size_t(light)].intensity}});
+    return animated;
 }
 
 /// The pose at rest, too, is that of the clips: what is hidden is in the scene.
