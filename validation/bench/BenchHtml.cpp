@@ -1,8 +1,8 @@
 #include "validation/bench/BenchHtml.h"
 
 #include <algorithm>
-#include <ranges>
 #include <set>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -40,8 +40,9 @@ std::set<std::string> marksOf(const BenchRecord& record, const MarkKind& kind) {
 }
 
 MarkKind markKindOf(const BenchRecord& record) {
-    for (const MethodKindInfo& info : methodKindTable() | std::views::reverse) {
-        const MarkKind kind{info.markKind, info.markWords, &info};
+    const std::span<const MethodKindInfo> table = methodKindTable();
+    for (auto info = table.rbegin(); info != table.rend(); ++info) {
+        const MarkKind kind{info->markKind, info->markWords, &*info};
         if (marksOf(record, kind).size() > 1) return kind;
     }
     return {"layout", "Circles store every G-buffer channel in fp32, the other shapes pack it."};
