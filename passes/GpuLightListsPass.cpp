@@ -4,7 +4,6 @@
 
 #include "passes/ListRoom.h"
 #include "passes/ListStep.h"
-#include "passes/ScanTiles.h"
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/slots.h"
 
@@ -163,35 +162,23 @@ void Builder::count(const glm::uvec4& round) {
 }
 
 void Builder::scan() {
-    const bool onCpu = spec.culling.builder == culling::Builder::Fragment;
     handles = graph.addPass<Handles>(
         "light_scan",
         [&](graph::PassBuilder& pass, Handles& out) {
             out = handles;
             out.readConstants(pass);
-            if (!onCpu) pass.program(steps.scan.program());
-            const Access read = onCpu ? Access::Download : Access::StorageRead;
-            const Access write = onCpu ? Access::Upload : Access::StorageWrite;
-            if (isZbin()) {
-                out.tileDepths = pass.read(handles.tileDepths, read);
-            } else {
-                if (onCpu) pass.read(handles.tileCounts, read);
-                out.tileCounts = pass.write(handles.tileCounts, write);
-            }
-            out.totals = pass.create("light_totals", graph::BufferDesc{sizeof(glm::uvec4)}, write);
+            pass.program(steps.scan.program());
+            if (isZbin())
+                out.tileDepths = pass.read(handles.tileDepths);
+            else
+                out.tileCounts = pass.write(handles.tileCounts, Access::StorageWrite);
+            out.totals = pass.create("light_totals", graph::BufferDesc{sizeof(glm::uvec4)});
         },
-        [step = steps.scan, used = drawn, zbin = isZbin(), onCpu, count = tiles()](const Handles& out,
-                                                                                   const graph::PassContext& context) {
-            const gpu::Buffer& of = context.buffer(zbin ? out.tileDepths : out.tileCounts);
-            const gpu::Buffer& totals = context.buffer(out.totals);
-            if (onCpu) {
-                const culling::FrameConstants constants = used->prepared.constants();
-                totals.uploadValue(zbin ? scanDepths(of, count, constants) : scanCounts(of, count, constants));
-                return;
-            }
+        [step = steps.scan, zbin = isZbin()](const Handles& out, const graph::PassContext& context) {
             out.bindConstants(context);
-            gpu::bindStorageBuffer(zbin ? STORAGE_TILE_DEPTHS : STORAGE_TILE_COUNTS, of);
-            gpu::bindStorageBuffer(STORAGE_LIST_TOTALS, totals);
+            gpu::bindStorageBuffer(zbin ? STORAGE_TILE_DEPTHS : STORAGE_TILE_COUNTS,
+                                   context.buffer(zbin ? out.tileDepths : out.tileCounts));
+            gpu::bindStorageBuffer(STORAGE_LIST_TOTALS, context.buffer(out.totals));
             step.run(context, {1, 1});
         });
 }

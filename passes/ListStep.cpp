@@ -30,8 +30,7 @@ static_assert(scenes::kMostLights / 32 * kIterationsAWord <= frame::kMostLoopIte
 
 std::size_t lightsARound(const frame::FrameSpec& spec) {
     if (!spec.settings.softwareBackend) return std::max<std::size_t>(spec.lights, 1);
-    const bool compute = spec.culling.builder == culling::Builder::Compute;
-    return kSoftwareLightsALane * std::size_t(compute ? spec.culling.lanes : 1);
+    return kSoftwareLightsALane * std::size_t(spec.culling.lanes);
 }
 
 const char* methodDefine(culling::Method method) {
@@ -52,27 +51,18 @@ const char* methodDefine(culling::Method method) {
 } // namespace
 
 ListStep::ListStep(const frame::FrameSpec& spec, std::string name, Lanes lanes) {
-    const bool compute = spec.culling.builder == culling::Builder::Compute;
-    const int many = lanes == Lanes::Group ? kGroup : spec.culling.lanes;
-    const int itemLanes = compute && lanes != Lanes::One ? many : 1;
+    const int itemLanes = lanes == Lanes::One ? 1 : lanes == Lanes::Group ? kGroup : spec.culling.lanes;
     const int group = itemLanes > 1 ? itemLanes : spec.settings.softwareBackend ? kSoftwareGroup : kGroup;
-    itemsAGroup_ = compute ? std::uint32_t(group / itemLanes) : 0;
-    const std::string path = "passes/light_" + name + ".glsl";
+    itemsAGroup_ = std::uint32_t(group / itemLanes);
+    program_.compute = "passes/light_" + name + ".glsl";
     program_.name = "light_" + std::move(name);
-    if (compute) {
-        program_.compute = path;
-    } else {
-        program_.vertex = "passes/fullscreen.vert";
-        program_.fragment = path;
-    }
-    program_.defines = {{"LIST_IN_COMPUTE", compute ? "1" : "0"},
-                        {"LIST_METHOD", methodDefine(spec.culling.method)},
+    program_.defines = {{"LIST_METHOD", methodDefine(spec.culling.method)},
                         {"LIST_IN_ROUNDS", spec.lights > lightsARound(spec) ? "1" : "0"},
                         {"LIST_THREADS", std::to_string(itemLanes)},
+                        {"LIST_GROUP", std::to_string(group)},
                         {"LIST_LIGHTS_A_ROW", std::to_string(kLightsARow)},
                         {"SAMPLES", std::to_string(spec.samples)},
                         {"HAS_TRANSPARENT_LAYER", spec.features[frame::Feature::Blend] ? "1" : "0"}};
-    if (compute) program_.defines.emplace_back("LIST_GROUP", std::to_string(group));
 }
 
 std::vector<glm::uvec4> ListStep::rounds(const frame::FrameSpec& spec) {
@@ -89,13 +79,7 @@ std::vector<glm::uvec4> ListStep::rounds(const frame::FrameSpec& spec) {
 
 void ListStep::run(const graph::PassContext& context, glm::uvec2 items, std::size_t program) const {
     gpu::useProgram(context.program(program));
-    if (itemsAGroup_ > 0) {
-        gpu::dispatch((items.x + itemsAGroup_ - 1) / itemsAGroup_, items.y);
-        return;
-    }
-    context.bindNoTargets(int(items.x), int(items.y));
-    gpu::setState({});
-    gpu::drawFullscreenTriangle();
+    gpu::dispatch((items.x + itemsAGroup_ - 1) / itemsAGroup_, items.y);
 }
 
 } // namespace tessera::passes

@@ -6,11 +6,11 @@
 
 namespace tessera::passes {
 
-/// One step of building light lists on the GPU: shaders/passes/light_<name>, spread over a grid of items by compute or
-/// by fragment shaders, as FrameSpec::culling says (shaders/lib/lists/list_items.glsl).
+/// One step of building light lists on the GPU: the compute shader shaders/passes/light_<name>, spread over a grid of
+/// items (shaders/lib/lists/list_items.glsl).
 class ListStep {
 public:
-    /// What works on an item in compute shaders: a whole workgroup, as many lanes as FrameSpec::culling says, or one.
+    /// What works on an item: a whole workgroup, as many lanes as FrameSpec::culling says, or one.
     enum class Lanes { Group, AsChosen, One };
     ListStep(const frame::FrameSpec& spec, std::string name, Lanes lanes);
 
@@ -29,7 +29,7 @@ public:
 
 private:
     shader::ProgramDesc program_;
-    std::uint32_t itemsAGroup_ = 1; ///< of a compute workgroup, along x; 0: fragments
+    std::uint32_t itemsAGroup_ = 1; ///< of a workgroup, along x
 };
 
 } // namespace tessera::passes

@@ -26,7 +26,6 @@ constexpr NormalTestInfo kNormalTests[] = {
 constexpr BuilderInfo kBuilders[] = {
     {Builder::Cpu, "cpu", "all cores, from the depth buffer read back"},
     {Builder::Compute, "compute", "compute shaders"},
-    {Builder::Fragment, "fragment", "fragment shaders, one fragment a tile"},
 };
 
 static_assert(isInOrder(kMethods, &MethodInfo::method, std::size(kMethods)));

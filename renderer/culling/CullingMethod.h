@@ -19,7 +19,7 @@ std::span<const MethodInfo> methodTable();
 const MethodInfo& infoOf(Method method);
 
 /// Who builds the lists.
-enum class Builder : std::uint8_t { Cpu, Compute, Fragment };
+enum class Builder : std::uint8_t { Cpu, Compute };
 struct BuilderInfo {
     Builder builder;
     std::string_view name;

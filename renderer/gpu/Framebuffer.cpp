@@ -66,7 +66,7 @@ void attach(std::uint32_t framebuffer, GLenum point, const graph::Target& target
 
 } // namespace
 
-Framebuffer::Framebuffer(const Attachments& attachments) : width_(attachments.width), height_(attachments.height) {
+Framebuffer::Framebuffer(const Attachments& attachments) {
     for (const graph::Target& target : targets(attachments)) {
         if (!target.texture) continue;
         const graph::TextureDesc desc = graph::mipDesc(target.texture->desc(), target.part.level);
@@ -83,10 +83,6 @@ Framebuffer::Framebuffer(const Attachments& attachments) : width_(attachments.wi
         const GLenum point = GL_COLOR_ATTACHMENT0 + GLenum(i);
         drawBuffers.push_back(attachments.colors[i].texture ? point : GLenum(GL_NONE));
         if (attachments.colors[i].texture) attach(id, point, attachments.colors[i]);
-    }
-    if (attachments.width > 0) {
-        glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_WIDTH, width_);
-        glNamedFramebufferParameteri(id, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height_);
     }
     if (attachments.depth.texture) attach(id, GL_DEPTH_ATTACHMENT, attachments.depth);
     glNamedFramebufferDrawBuffers(id, GLsizei(drawBuffers.size()), drawBuffers.data());
@@ -110,7 +106,7 @@ Framebuffer::~Framebuffer() {
 }
 
 const Framebuffer& FramebufferCache::get(const Attachments& attachments) {
-    std::vector<std::uint64_t> key{std::uint64_t(attachments.width), std::uint64_t(attachments.height)};
+    std::vector<std::uint64_t> key;
     for (const auto& [texture, part] : targets(attachments)) {
         key.push_back(texture ? *texture->serial() : 0);
         key.push_back(std::uint64_t(part.level) << 32 | std::uint64_t(part.layer));

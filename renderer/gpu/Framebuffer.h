@@ -16,8 +16,6 @@ namespace tessera::gpu {
 struct Attachments {
     std::vector<graph::Target> colors;
     graph::Target depth = {};
-    int width = 0; ///< pixels; where nothing is attached, since shaders only write buffers
-    int height = 0;
 };
 
 class Framebuffer {
@@ -54,8 +52,7 @@ private:
         std::vector<std::weak_ptr<const std::uint64_t>> textures;
         Framebuffer framebuffer;
     };
-    std::map<std::vector<std::uint64_t>, Entry>
-        entries_; ///< by size where nothing is attached, then texture serials and parts, depth first; 0: none
+    std::map<std::vector<std::uint64_t>, Entry> entries_; ///< by texture serials and parts, depth first; 0: none
 };
 
 } // namespace tessera::gpu

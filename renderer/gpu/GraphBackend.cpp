@@ -109,9 +109,8 @@ void GraphBackend::forget(const std::string& name) {
     if (persistent_.erase(name) > 0) framebuffers_.collect();
 }
 
-void GraphBackend::bindTargets(std::span<const graph::Target> colors, const graph::Target& depth, int width,
-                               int height) {
-    bindFramebuffer(framebuffers_.get({{colors.begin(), colors.end()}, depth, width, height}));
+void GraphBackend::bindTargets(std::span<const graph::Target> colors, const graph::Target& depth) {
+    bindFramebuffer(framebuffers_.get({{colors.begin(), colors.end()}, depth}));
 }
 
 void GraphBackend::bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,

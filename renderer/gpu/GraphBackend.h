@@ -58,7 +58,7 @@ public:
     void keep(const std::string& name);
     /// Frees the persistent resource of a name.
     void forget(const std::string& name);
-    void bindTargets(std::span<const graph::Target> colors, const graph::Target& depth, int width, int height) override;
+    void bindTargets(std::span<const graph::Target> colors, const graph::Target& depth) override;
     void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,
                        std::span<const Program* const> programs) override;
     void beginPass(std::string_view name, graph::Barrier barrier) override;

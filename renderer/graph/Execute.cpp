@@ -89,10 +89,7 @@ public:
         }
         if (colors.empty() && depth.texture == nullptr)
             throw std::logic_error("binds its targets and declared none; create or write an attachment in its setup");
-        execution_.backend_.bindTargets(colors, depth, 0, 0);
-    }
-    void bindNoTargets(int width, int height) const override {
-        execution_.backend_.bindTargets({}, Target(), width, height);
+        execution_.backend_.bindTargets(colors, depth);
     }
 
 protected:

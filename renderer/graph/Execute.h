@@ -25,8 +25,8 @@ public:
     virtual const gpu::Buffer& persistentBuffer(const std::string& name, const BufferDesc& desc) = 0;
     /// Records the revision of a persistent resource's contents; none: its contents are undefined.
     virtual void setRevision(const std::string& name, std::optional<std::uint64_t> revision) = 0;
-    /// Binds a framebuffer of these textures, or of so many pixels where there are none.
-    virtual void bindTargets(std::span<const Target> colors, const Target& depth, int width, int height) = 0;
+    /// Binds a framebuffer of these textures.
+    virtual void bindTargets(std::span<const Target> colors, const Target& depth) = 0;
     /// Binds a copy of the bytes as the uniform block at a slot. Throws std::logic_error where one of the programs has
     /// a block of another size there.
     virtual void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,

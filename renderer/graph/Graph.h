@@ -85,8 +85,6 @@ public:
     const gpu::Program& program() const { return program(0); }
     /// Binds the render targets that the pass declared, colours in the order of their declaration.
     virtual void bindTargets() const = 0;
-    /// The same of so many pixels, for a pass that rasterises into nothing because its shaders write buffers.
-    virtual void bindNoTargets(int width, int height) const = 0;
     /// Binds a copy of a value as the uniform block at a slot (shaders/shared/slots.h) until the pass ends. Throws
     /// std::logic_error where a program of the pass has a block of another size there. Offsets are not compared: of
     /// members that are vec4, matrices or runs of four 4-byte scalars they are those of std140.

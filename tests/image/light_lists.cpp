@@ -11,15 +11,8 @@ using culling::Builder;
 using engine::Technique;
 using namespace test;
 
-/// Builders on the GPU, with the lanes that build a tile together.
-struct GpuBuilder {
-    const char* name;
-    Builder builder;
-    int lanes;
-};
-constexpr GpuBuilder kGpuBuilders[] = {{"compute, 64 lanes a tile", Builder::Compute, 64},
-                                       {"compute, 1", Builder::Compute, 1},
-                                       {"fragment", Builder::Fragment, 1}};
+/// Invocations that build a tile's lists together on the GPU.
+constexpr int kLanes[] = {64, 1};
 
 class LightLists : public ImageTest {
 protected:
@@ -30,9 +23,9 @@ protected:
         return tiled ? Technique::TiledDeferred : Technique::ClusteredDeferred;
     }
 
-    static frame::FrameSettings with(frame::FrameSettings settings, const GpuBuilder& gpu) {
-        settings.culling.builder = gpu.builder;
-        settings.culling.lanes = gpu.lanes;
+    static frame::FrameSettings with(frame::FrameSettings settings, int lanes) {
+        settings.culling.builder = Builder::Compute;
+        settings.culling.lanes = lanes;
         return settings;
     }
 
@@ -52,14 +45,14 @@ protected:
         ASSERT_EQ(built.entries, truth.entries);
     }
 
-    /// Every builder on the GPU, or one of them by turn.
-    static std::span<const GpuBuilder> gpuBuilders(bool all, std::size_t turn) {
-        return all ? std::span(kGpuBuilders) : std::span(kGpuBuilders).subspan(turn % std::size(kGpuBuilders), 1);
+    /// All of kLanes, or one of them by turn.
+    static std::span<const int> lanesOf(bool all, std::size_t turn) {
+        return all ? std::span(kLanes) : std::span(kLanes).subspan(turn % std::size(kLanes), 1);
     }
 
-    /// With every method and tile; with every builder on the GPU, or one in turn.
+    /// With every method and tile; with all of kLanes, or one in turn.
     void expectSameLists(const scenes::Scene& scene, frame::FrameSettings settings, std::span<const int> tiles,
-                         bool everyBuilder = true, std::size_t turn = 0) {
+                         bool allLanes = true, std::size_t turn = 0) {
         engine::Renderer renderer(context(), scene);
         for (const culling::MethodInfo& method : culling::methodTable()) {
             if (method.method == culling::Method::None) continue;
@@ -71,17 +64,17 @@ protected:
                 const culling::LightLists truth = lists(renderer, settings);
                 // The first light of the lattice is out of view; a tile's box, wider than its view, may still touch it.
                 EXPECT_TRUE(scene.lights.size() == 1 || !truth.entries.empty());
-                for (const GpuBuilder& gpu : gpuBuilders(everyBuilder, turn++)) {
-                    SCOPED_TRACE(fmt::format("{}, tile {}, {}", method.name, tile, gpu.name));
-                    expectEqual(lists(renderer, with(settings, gpu)), truth);
+                for (const int lanes : lanesOf(allLanes, turn++)) {
+                    SCOPED_TRACE(fmt::format("{}, tile {}, {} lanes", method.name, tile, lanes));
+                    expectEqual(lists(renderer, with(settings, lanes)), truth);
                 }
             }
         }
     }
 
-    /// With every technique and method and every builder on the GPU; or every technique with one method and builder in
+    /// With every technique, every method and all of kLanes; or every technique with one method and one of kLanes in
     /// turn. Forward's is pruned, which changes no bit.
-    void expectForwardsPicture(const scenes::Scene& scene, frame::FrameSettings settings, bool everyBuilder) {
+    void expectForwardsPicture(const scenes::Scene& scene, frame::FrameSettings settings, bool allLanes) {
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings pruned = settings;
         pruned.prune = true;
@@ -92,12 +85,12 @@ protected:
             std::vector<culling::Method> methods(technique.methods.begin(), technique.methods.end());
             std::erase(methods, culling::Method::None);
             if (methods.empty()) continue;
-            if (!everyBuilder) methods = {methods[turn / 2 % methods.size()]};
+            if (!allLanes) methods = {methods[turn / 2 % methods.size()]};
             for (const culling::Method method : methods) {
                 settings.culling.method = method;
-                for (const GpuBuilder& gpu : gpuBuilders(everyBuilder, turn++)) {
-                    SCOPED_TRACE(fmt::format("{} {}, {}", technique.name, int(method), gpu.name));
-                    EXPECT_TRUE(renderer.render(technique.technique, with(settings, gpu)).radiance == truth);
+                for (const int lanes : lanesOf(allLanes, turn++)) {
+                    SCOPED_TRACE(fmt::format("{} {}, {} lanes", technique.name, int(method), lanes));
+                    EXPECT_TRUE(renderer.render(technique.technique, with(settings, lanes)).radiance == truth);
                 }
             }
         }
@@ -183,10 +176,10 @@ TEST_SWEEP(LightLists, theMostLightsOfASceneAreNotTooManyForTheGpu) {
     expectSameLists(scene, settings, std::array{64}, isWholeSweep());
     engine::Renderer renderer(context(), scene);
     const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
-    for (const GpuBuilder& gpu : gpuBuilders(isWholeSweep(), 0)) {
-        SCOPED_TRACE(gpu.name);
-        EXPECT_TRUE(renderer.render(Technique::ForwardPlus, with(settings, gpu)).radiance == truth);
-        EXPECT_TRUE(renderer.render(Technique::ClusteredDeferred, with(settings, gpu)).radiance == truth);
+    for (const int lanes : lanesOf(isWholeSweep(), 0)) {
+        SCOPED_TRACE(lanes);
+        EXPECT_TRUE(renderer.render(Technique::ForwardPlus, with(settings, lanes)).radiance == truth);
+        EXPECT_TRUE(renderer.render(Technique::ClusteredDeferred, with(settings, lanes)).radiance == truth);
     }
 }
 

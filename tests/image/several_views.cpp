@@ -74,8 +74,9 @@ TEST_SWEEP(SeveralViews, twoCamerasInOneFrameAreTwoFramesToTheLastBit) {
 
 TEST_SWEEP(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLists) {
     const scenes::Scene scene = withTwoCameras(isWholeSweep() ? everythingScene() : metalScene());
-    View fragment = view(Technique::ClusteredDeferred, 0, {64, 48});
-    fragment.settings.culling.builder = culling::Builder::Fragment;
+    View alone = view(Technique::ClusteredDeferred, 0, {64, 48});
+    alone.settings.culling.builder = culling::Builder::Compute;
+    alone.settings.culling.lanes = 1;
     View compute = view(Technique::ForwardPlus, 1, {97, 55});
     compute.settings.culling.builder = culling::Builder::Compute;
     compute.settings.samples = 4;
@@ -83,7 +84,7 @@ TEST_SWEEP(SeveralViews, viewsMayDifferInTechniqueSizeSamplesAndWhoBuildsTheirLi
     zbin.settings.culling.method = culling::Method::Zbin;
     View volumes = view(Technique::DeferredVolumes, 1, {64, 48});
     volumes.settings.space = frame::LightingSpace::View;
-    expectEqual(scene, {fragment, compute, zbin, volumes});
+    expectEqual(scene, {alone, compute, zbin, volumes});
 }
 
 TEST_F(SeveralViews, eachViewsListsAreCulledByItsOwnNormals) {

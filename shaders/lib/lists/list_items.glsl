@@ -1,8 +1,6 @@
-// How the steps that build light lists are spread over a GPU. One source serves compute shaders (LIST_IN_COMPUTE 1) and
-// fragment shaders: an item (a tile, a light, a depth bin) belongs to the LIST_THREADS lanes of a workgroup together, or to a
-// lane of its own, or to a fragment of a target that has a pixel an item. Items lie in a grid, since a grid's side may not
-// exceed 65535. Where a group holds several items, the last of a row may lie beyond the grid; rows never do
-// (passes/ListStep.cpp).
+// How the steps that build light lists are spread over a GPU: an item (a tile, a light, a depth bin) belongs to the
+// LIST_THREADS lanes of a workgroup together, or to a lane of its own. Items lie in a grid, since a grid's side may not exceed
+// 65535. Where a group holds several items, the last of a row may lie beyond the grid; rows never do (passes/ListStep.cpp).
 #pragma once
 
 // What lists are built by (culling::Method).
@@ -11,11 +9,9 @@
 #define LIST_METHOD_CLUSTER 3
 #define LIST_METHOD_ZBIN 4
 
-#if LIST_IN_COMPUTE
 layout(local_size_x = LIST_GROUP) in;
-#endif
 
-#if LIST_IN_COMPUTE && LIST_THREADS > 1
+#if LIST_THREADS > 1
 #define LIST_MEMORY shared
 #define LIST_LANE gl_LocalInvocationIndex
 uvec2 listItem()
@@ -33,11 +29,7 @@ void listSync()
 #define LIST_LANE 0u
 uvec2 listItem()
 {
-#if LIST_IN_COMPUTE
     return gl_GlobalInvocationID.xy;
-#else
-    return uvec2(gl_FragCoord.xy);
-#endif
 }
 void listSync()
 {

@@ -1,5 +1,4 @@
-// Fourth step, one item, in compute shaders only (ScanTiles.h does it for fragment shaders): where each tile's cells and
-// entries begin, and how many there are in all. Cell 0 is the empty cell, and the first entries are the lights that reach
+// Fourth step, one item: where each tile's cells and entries begin, and how many there are in all. Cell 0 is the empty cell, and the first entries are the lights that reach
 // everywhere. For zbin, which needs none of that: the bins of depth
 // between the nearest and farthest surface of all tiles.
 #pragma once

@@ -9,6 +9,7 @@
 #include "base/Error.h"
 #include "passes/GpuLightListsPass.h"
 #include "renderer/gpu/Buffer.h"
+#include "tests/support/ErrorText.h"
 #include "tests/support/GlContext.h"
 
 namespace tessera::passes {
@@ -27,7 +28,6 @@ public:
     std::size_t bytes(graph::BufferHandle) const override { return allocated; }
     const gpu::Program& program(std::size_t) const override { throw std::logic_error("no programs"); }
     void bindTargets() const override {}
-    void bindNoTargets(int, int) const override {}
 
     std::function<void()> fault;
     const gpu::Buffer held{"held", 64};
@@ -39,16 +39,6 @@ protected:
 
 class ListRoomTest : public test::GlTest {
 protected:
-    template <typename Error>
-    static std::string errorOf(const std::function<void()>& call) {
-        try {
-            call();
-        } catch (const Error& error) {
-            return error.what();
-        }
-        return "no error";
-    }
-
     const gpu::Capabilities& limits = context().capabilities();
     NotingContext pass;
 };
@@ -59,7 +49,8 @@ TEST_F(ListRoomTest, asManyTexelsAsTheDriverReadsAreTakenAndOneMoreIsRefused) {
     EXPECT_EQ(pass.allocated, most * 4);
     makeTexelRoom(pass, {}, "lights", most, graph::Format::Rgba32Float);
     EXPECT_EQ(pass.allocated, most * 16);
-    EXPECT_EQ(errorOf<InputError>([&] { makeTexelRoom(pass, {}, "light entries", most + 1, graph::Format::R32Uint); }),
+    EXPECT_EQ(test::errorText<InputError>(
+                  [&] { makeTexelRoom(pass, {}, "light entries", most + 1, graph::Format::R32Uint); }),
               fmt::format("light entries would take {} texels, and this driver reads {}: larger tiles, another culling "
                           "method or fewer lights need less",
                           most + 1, most));
@@ -70,7 +61,7 @@ TEST_F(ListRoomTest, asManyBytesOfABlockAsTheDriverReadsAreTakenAndOneMoreIsRefu
     const std::size_t most = limits.maxStorageBlockBytes;
     makeBlockRoom(pass, {}, "light cells", most);
     EXPECT_EQ(pass.allocated, most);
-    EXPECT_EQ(errorOf<InputError>([&] { makeBlockRoom(pass, {}, "light cells", most + 1); }),
+    EXPECT_EQ(test::errorText<InputError>([&] { makeBlockRoom(pass, {}, "light cells", most + 1); }),
               fmt::format("light cells would take {} bytes, and this driver reads {}: larger tiles, another culling "
                           "method or fewer lights need less",
                           most + 1, most));
@@ -80,7 +71,7 @@ TEST_F(ListRoomTest, asManyBytesOfABlockAsTheDriverReadsAreTakenAndOneMoreIsRefu
 TEST_F(ListRoomTest, asManyBytesAsShadersWriteAreNoFaultAndOneMoreIs) {
     const std::size_t most = limits.maxStorageBlockBytes;
     EXPECT_NO_THROW(requireWritable("light tiles", most));
-    EXPECT_EQ(errorOf<InputError>([&] { requireWritable("light tiles", most + 1); }),
+    EXPECT_EQ(test::errorText<InputError>([&] { requireWritable("light tiles", most + 1); }),
               fmt::format("light tiles would take {} bytes, and shaders of this driver write {} at most: build them on "
                           "the CPU, or use larger tiles or fewer lights",
                           most + 1, most));
@@ -89,10 +80,10 @@ TEST_F(ListRoomTest, asManyBytesAsShadersWriteAreNoFaultAndOneMoreIs) {
 TEST_F(ListRoomTest, memoryThatRunsOutIsReportedWithTheRemedyAndAMistakeOfThePassAsItIs) {
     const auto take = [&] { makeBlockRoom(pass, {}, "light cells", 16); };
     pass.fault = [] { throw std::runtime_error("no memory for 'light_cells'"); };
-    EXPECT_EQ(errorOf<std::runtime_error>(take),
+    EXPECT_EQ(test::errorText<std::runtime_error>(take),
               "no memory for 'light_cells'; larger tiles, another culling method or fewer lights need less");
     pass.fault = [] { throw std::logic_error("not declared"); };
-    EXPECT_EQ(errorOf<std::logic_error>(take), "not declared");
+    EXPECT_EQ(test::errorText<std::logic_error>(take), "not declared");
 }
 
 TEST_F(ListRoomTest, listsBeyond32BitsAreCountedWithEveryBit) {
@@ -106,7 +97,7 @@ TEST_F(ListRoomTest, listsBeyond32BitsAreCountedWithEveryBit) {
                                    [](const graph::Graph::Pass& declared) { return declared.name == "light_room"; });
     ASSERT_NE(room, graph.passes().end());
     pass.held.uploadValue(glm::uvec4(1u, 5u, 1u, 0u)); // the cells, and the low and high word of the entries
-    EXPECT_THAT(errorOf<InputError>([&] { room->execute(pass); }),
+    EXPECT_THAT(test::errorText<InputError>([&] { room->execute(pass); }),
                 testing::HasSubstr(fmt::format("light entries would take {} bytes", ((std::size_t(1) << 32) + 5) * 4)));
 }
 

@@ -25,10 +25,9 @@ protected:
     }
 
     static shader::Defines definesOf(const char* method, int lanes) {
-        return {{"LIST_IN_COMPUTE", "1"}, {"LIST_METHOD", method},
-                {"LIST_IN_ROUNDS", "0"},  {"LIST_THREADS", std::to_string(lanes)},
-                {"LIST_GROUP", "64"},     {"LIST_LIGHTS_A_ROW", "1"},
-                {"SAMPLES", "1"},         {"HAS_TRANSPARENT_LAYER", "0"}};
+        return {{"LIST_METHOD", method},       {"LIST_IN_ROUNDS", "0"},    {"LIST_THREADS", std::to_string(lanes)},
+                {"LIST_GROUP", "64"},          {"LIST_LIGHTS_A_ROW", "1"}, {"SAMPLES", "1"},
+                {"HAS_TRANSPARENT_LAYER", "0"}};
     }
 
     /// What the scan writes as its totals, of a row of tiles; 64 lanes share them.

@@ -250,7 +250,8 @@ TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
     options.lights = 1000;
     const scenes::Scene scene = scenes::loadScene("lattice", options);
     frame::FrameSettings settings;
-    settings.culling.builder = culling::Builder::Fragment; // a lane per tile: more lights than its loops may visit
+    settings.culling.builder = culling::Builder::Compute;
+    settings.culling.lanes = 1; // more lights than its loops may visit
     const graph::Plan plan = planFrame(scene, Technique::ClusteredDeferred, settings);
     for (const char* step : {"light_count", "light_sizes", "light_lists"}) {
         int rounds = 0;

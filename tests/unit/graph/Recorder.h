@@ -44,9 +44,8 @@ public:
     void setRevision(const std::string& name, std::optional<std::uint64_t> revision) override {
         calls.push_back(name + " holds " + (revision ? std::to_string(*revision) : "nothing"));
     }
-    void bindTargets(std::span<const Target> colors, const Target& depth, int width, int height) override {
-        calls.push_back("targets " + std::to_string(colors.size()) + (depth.texture ? " and depth" : "") +
-                        (width > 0 ? " of " + std::to_string(width) + " x " + std::to_string(height) : ""));
+    void bindTargets(std::span<const Target> colors, const Target& depth) override {
+        calls.push_back("targets " + std::to_string(colors.size()) + (depth.texture ? " and depth" : ""));
     }
     void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,
                        std::span<const gpu::Program* const> programs) override {

@@ -85,20 +85,15 @@ void addLowerBoundPrograms(Programs& programs, const frame::FrameSpec& spec) {
 
 /// Those of light culling by every method and builder, and of lighting in compute shaders.
 std::vector<std::pair<engine::Technique, frame::FrameSettings>> listBuildersAndStages() {
-    struct Lanes {
-        culling::Builder builder;
-        int lanes;
-    };
     std::vector<std::pair<engine::Technique, frame::FrameSettings>> all;
     frame::FrameSettings settings = smallFrame();
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         if (engine::infoOf(technique.technique).choosesStage) settings.lightOn = frame::LightingStage::Compute;
         for (const culling::Method method : technique.methods) {
             settings.culling.method = method;
-            for (const Lanes lanes : {Lanes{culling::Builder::Compute, 64}, Lanes{culling::Builder::Compute, 1},
-                                      Lanes{culling::Builder::Fragment, 1}}) {
-                settings.culling.builder = lanes.builder;
-                settings.culling.lanes = lanes.lanes;
+            settings.culling.builder = culling::Builder::Compute;
+            for (const int lanes : {64, 1}) {
+                settings.culling.lanes = lanes;
                 all.emplace_back(technique.technique, settings);
             }
         }
