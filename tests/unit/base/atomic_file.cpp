@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/ErrorText.h"
 #include "tests/support/FileSizeLimit.h"
 #include "tests/unit/validation/Samples.h"
 
@@ -16,9 +17,9 @@ namespace tessera {
 namespace {
 
 namespace fs = std::filesystem;
+using test::errorText;
 using test::FileSizeLimit;
 using testing::StartsWith;
-using validation::errorOf;
 using validation::readText;
 using validation::TemporaryFolder;
 
@@ -42,7 +43,7 @@ TEST(AtomicFile, aFailedWriteKeepsTheOldFileAndNeverLeavesATemporary) {
     std::string message;
     {
         const FileSizeLimit fullDisk(1000);
-        message = errorOf<std::runtime_error>([&] { writeFileAtomically(path, std::string(100'000, 'x')); });
+        message = errorText<std::runtime_error>([&] { writeFileAtomically(path, std::string(100'000, 'x')); });
     }
     EXPECT_THAT(message, StartsWith("cannot write " + path + ": File too large"));
     EXPECT_EQ(readText(path), "old");
@@ -80,12 +81,12 @@ TEST(AtomicFile, aPrivateFileIsReplacedByWayOfAPrivateOne) {
 
 TEST(AtomicFile, theMessageNamesThePathTheReasonAndTheRemedy) {
     const TemporaryFolder folder;
-    EXPECT_EQ(errorOf<std::runtime_error>([&] { writeFileAtomically(folder.path(), "x"); }),
+    EXPECT_EQ(errorText<std::runtime_error>([&] { writeFileAtomically(folder.path(), "x"); }),
               "cannot write " + folder.path() + ": it is a folder; name a file in it");
-    EXPECT_EQ(errorOf<std::runtime_error>([&] { writeFileAtomically(folder.file("no/a.txt"), "x"); }),
+    EXPECT_EQ(errorText<std::runtime_error>([&] { writeFileAtomically(folder.file("no/a.txt"), "x"); }),
               "cannot write " + folder.file("no/a.txt") + ": there is no folder " + folder.file("no") +
                   "; create it or name another");
-    EXPECT_EQ(errorOf<std::runtime_error>([&] { writeFileAtomically("", "x"); }),
+    EXPECT_EQ(errorText<std::runtime_error>([&] { writeFileAtomically("", "x"); }),
               "cannot write \"\": the name is empty; name a file");
     EXPECT_EQ(folder.entries(), 0u);
 }
@@ -93,7 +94,7 @@ TEST(AtomicFile, theMessageNamesThePathTheReasonAndTheRemedy) {
 TEST(AtomicFile, aNameThatTheFileSystemCannotHoldIsFoundBeforeTheWork) {
     const TemporaryFolder folder;
     const std::string path = folder.file(std::string(300, 'a'));
-    EXPECT_EQ(errorOf<std::runtime_error>([&] { requireWritable(path); }),
+    EXPECT_EQ(errorText<std::runtime_error>([&] { requireWritable(path); }),
               "cannot write " + path + ": File name too long; give a shorter one");
     EXPECT_EQ(folder.entries(), 0u);
 }

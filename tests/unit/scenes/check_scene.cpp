@@ -5,6 +5,7 @@
 
 #include "base/Error.h"
 #include "scenes/builtin/Pictures.h"
+#include "tests/support/ErrorText.h"
 #include "tests/unit/scenes/TinyScene.h"
 
 namespace tessera::scenes {
@@ -54,12 +55,7 @@ std::string verdict(const Spoil& spoil) {
     scene.lights.emplace_back().name = "lamp";
     scene.cameras.emplace_back().name = "eye";
     spoil(scene);
-    try {
-        checkScene(scene);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return tessera::test::errorText<InputError>([&] { checkScene(scene); });
 }
 
 TEST(CheckScene, soundScenePasses) {

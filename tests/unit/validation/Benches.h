@@ -64,15 +64,4 @@ inline RunIdentity madeUpIdentity(int shard = 1, int shards = 1) {
             "",         5,          shard,      shards, "tessera bench hall -o out"};
 }
 
-/// The text of the refusal that an action ends in.
-template <typename Action>
-std::string benchRefusal(Action&& action) {
-    try {
-        action();
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "nothing was refused";
-}
-
 } // namespace tessera::validation

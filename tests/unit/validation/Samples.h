@@ -69,15 +69,4 @@ inline void writeText(const std::string& path, const std::string& text) {
     std::ofstream(path, std::ios::binary) << text;
 }
 
-/// The text of the exception that `act` throws, which must be an `Error`.
-template <class Error, class Act>
-std::string errorOf(Act act) {
-    try {
-        act();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "(nothing of that type was thrown)";
-}
-
 } // namespace tessera::validation

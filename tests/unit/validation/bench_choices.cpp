@@ -4,6 +4,7 @@
 
 #include "base/Error.h"
 #include "scenes/Load.h"
+#include "tests/support/ErrorText.h"
 #include "tests/unit/validation/Benches.h"
 #include "validation/bench/BenchHtml.h"
 #include "validation/bench/BenchJson.h"
@@ -24,12 +25,7 @@ BenchMatrix matrixOf(const std::string& json) {
 }
 
 std::string refusal(const std::string& json) {
-    try {
-        matrixOf(json);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "nothing was refused";
+    return test::errorText<InputError>([&] { matrixOf(json); });
 }
 
 /// The plan of one technique over a scene, in a picture of 64x36 pixels.
@@ -96,8 +92,8 @@ TEST(ShadowMatrix, valuesHaveTheBoundsOfTheSettings) {
     EXPECT_EQ(refusal(R"({"shadowCascades": [2.5]})"),
               "m.json: \"shadowCascades\": shadow cascades '2.5' is not a whole number, such as 8");
     EXPECT_THAT(refusal(R"({"shadowWidht": [3]})"), HasSubstr("did you mean 'shadowWidth'"));
-    EXPECT_EQ(refusal(R"({"shadowCascades": [2.0]})"), "nothing was refused");
-    EXPECT_EQ(refusal(R"({"shadowResolution": ["automatic", 64], "shadowBudget": [0.5]})"), "nothing was refused");
+    EXPECT_EQ(refusal(R"({"shadowCascades": [2.0]})"), "");
+    EXPECT_EQ(refusal(R"({"shadowResolution": ["automatic", 64], "shadowBudget": [0.5]})"), "");
 }
 
 TEST(ShadowMatrix, everySettingIsVariedByItsFilterAndDrawnOnceWithTheOthers) {
@@ -275,8 +271,7 @@ TEST(EnvironmentMatrix, valuesHaveTheBoundsOfTheSettings) {
               "m.json: \"environmentSamples\": environment samples 100: give one of 1, 4, 16, 64, 256, 1024, 4096");
     EXPECT_EQ(refusal(R"({"environmentCompensation": [1]})"),
               "m.json: \"environmentCompensation\": 1 is neither true nor false");
-    EXPECT_EQ(refusal(R"({"environmentLight": ["off", "sampled"], "environmentCompensation": [true]})"),
-              "nothing was refused");
+    EXPECT_EQ(refusal(R"({"environmentLight": ["off", "sampled"], "environmentCompensation": [true]})"), "");
 }
 
 TEST(EnvironmentMatrix, everySettingIsVariedWhereItIsHeeded) {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/Error.h"
+#include "tests/support/ErrorText.h"
 #include "tests/support/TempFolder.h"
 #include "tests/unit/validation/Benches.h"
 #include "validation/bench/BenchMerge.h"
@@ -67,8 +68,9 @@ TEST_F(BenchStoring, savedResultsAreReadBackAfterTheProgramsEnd) {
 TEST_F(BenchStoring, anUnfinishedRunIsNotOverwrittenWithoutRequest) {
     const std::string out = folder("out");
     { const BenchStore store(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }
-    EXPECT_THAT(benchRefusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }),
-                testing::AllOf(HasSubstr("resume it"), HasSubstr("parts")));
+    EXPECT_THAT(
+        test::errorText<InputError>([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep); }),
+        testing::AllOf(HasSubstr("resume it"), HasSubstr("parts")));
     finishedShard("done", 1, 1, 2);
     EXPECT_NO_THROW(BenchStore(folder("done"), madeUpIdentity(), madeUpPlan(2), EarlierRun::Keep));
 }
@@ -76,7 +78,7 @@ TEST_F(BenchStoring, anUnfinishedRunIsNotOverwrittenWithoutRequest) {
 TEST_F(BenchStoring, anotherRunIsNotResumedAndTheDifferenceIsNamed) {
     const std::string out = finishedShard("out", 1, 2, 2);
     const auto resumed = [&](const RunIdentity& identity, const BenchPlan& plan) {
-        return benchRefusal([&] { BenchStore(out, identity, plan, EarlierRun::Resume); });
+        return test::errorText<InputError>([&] { BenchStore(out, identity, plan, EarlierRun::Resume); });
     };
     RunIdentity other = madeUpIdentity(1, 2);
     other.machine = "64 x Chip";
@@ -91,7 +93,7 @@ TEST_F(BenchStoring, anotherRunIsNotResumedAndTheDifferenceIsNamed) {
     EXPECT_THAT(resumed(madeUpIdentity(2, 2), madeUpPlan(2)), HasSubstr("holds shard 1/2, not 2/2"));
     other = madeUpIdentity(1, 2);
     other.command = "another spelling of it";
-    EXPECT_EQ(resumed(other, madeUpPlan(2)), "nothing was refused");
+    EXPECT_EQ(resumed(other, madeUpPlan(2)), "");
 }
 
 TEST_F(BenchStoring, aSceneWhoseNameIsNotUtf8IsKeptAndResumed) {
@@ -110,12 +112,12 @@ TEST_F(BenchStoring, aSceneWhoseNameIsNotUtf8IsKeptAndResumed) {
 TEST_F(BenchStoring, noOtherRunReplacesAShard) {
     const std::string out = finishedShard("a", 1, 2, 2);
     EXPECT_THAT(
-        benchRefusal([&] { BenchStore(out, madeUpIdentity(2, 2), madeUpPlan(2), EarlierRun::Keep); }),
+        test::errorText<InputError>([&] { BenchStore(out, madeUpIdentity(2, 2), madeUpPlan(2), EarlierRun::Keep); }),
         testing::AllOf(HasSubstr("holds shard 1/2, which shard 2/2 would replace"), HasSubstr("another folder")));
     for (const auto& [shard, shards] : {std::pair(1, 1), {1, 3}, {2, 3}})
-        EXPECT_THAT(
-            benchRefusal([&] { BenchStore(out, madeUpIdentity(shard, shards), madeUpPlan(2), EarlierRun::Keep); }),
-            HasSubstr("holds shard 1/2"));
+        EXPECT_THAT(test::errorText<InputError>(
+                        [&] { BenchStore(out, madeUpIdentity(shard, shards), madeUpPlan(2), EarlierRun::Keep); }),
+                    HasSubstr("holds shard 1/2"));
     EXPECT_NO_THROW(BenchStore(out, madeUpIdentity(1, 2), madeUpPlan(2), EarlierRun::Keep));
 }
 
@@ -123,13 +125,13 @@ TEST_F(BenchStoring, aChangedSceneIsNotMixedWithItsEarlierState) {
     const std::string a = finishedShard("a", 1, 2, 2);
     BenchPlan changed = madeUpPlan(2);
     changed.groups[1].fingerprint ^= 1;
-    EXPECT_THAT(benchRefusal([&] { BenchStore(a, madeUpIdentity(1, 2), changed, EarlierRun::Resume); }),
+    EXPECT_THAT(test::errorText<InputError>([&] { BenchStore(a, madeUpIdentity(1, 2), changed, EarlierRun::Resume); }),
                 testing::AllOf(HasSubstr("the scene hall changed between them"), HasSubstr("name another folder")));
     {
         const BenchStore store(folder("b"), madeUpIdentity(2, 2), changed, EarlierRun::Keep);
         store.keep(1, finished(1));
     }
-    EXPECT_THAT(benchRefusal([&] {
+    EXPECT_THAT(test::errorText<InputError>([&] {
                     mergeRuns({a, folder("b")}, folder("all"));
                 }),
                 testing::AllOf(HasSubstr("the scene hall changed between them"), HasSubstr("measure every shard")));
@@ -137,14 +139,7 @@ TEST_F(BenchStoring, aChangedSceneIsNotMixedWithItsEarlierState) {
 
 TEST_F(BenchStoring, aFolderIsNotGivenToTwoRunsAtOnceAndTheHolderIsNamed) {
     const std::string out = folder("out");
-    const auto refused = [&](auto&& begin) -> std::string {
-        try {
-            begin();
-        } catch (const std::runtime_error& error) {
-            return error.what();
-        }
-        return "nothing was refused";
-    };
+    const auto refused = [&](auto&& begin) { return test::errorText<std::runtime_error>(begin); };
     const auto inUse = testing::AllOf(HasSubstr(out + " is in use"), HasSubstr(fmt::format("process {}", ::getpid())),
                                       HasSubstr("name another folder"));
     {
@@ -165,13 +160,15 @@ TEST_F(BenchStoring, whatNoRunHasMadeIsNeverDeleted) {
     const auto isRefused =
         testing::AllOf(HasSubstr(own.string() + ": is no file of a bench"), HasSubstr("move it away"));
     for (const EarlierRun earlier : {EarlierRun::Keep, EarlierRun::Resume, EarlierRun::Replace})
-        EXPECT_THAT(benchRefusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(1), earlier); }), isRefused);
-    EXPECT_THAT(benchRefusal([&] { mergeRuns({finishedShard("whole", 1, 1, 1)}, out); }), isRefused);
+        EXPECT_THAT(test::errorText<InputError>([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(1), earlier); }),
+                    isRefused);
+    EXPECT_THAT(test::errorText<InputError>([&] { mergeRuns({finishedShard("whole", 1, 1, 1)}, out); }), isRefused);
     EXPECT_EQ(fs::file_size(own), 4u);
     fs::remove(own);
     fs::create_directory(fs::path(out) / "parts/group-lamps");
-    EXPECT_THAT(benchRefusal([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep); }),
-                HasSubstr("parts/group-lamps: is no file"));
+    EXPECT_THAT(
+        test::errorText<InputError>([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep); }),
+        HasSubstr("parts/group-lamps: is no file"));
     fs::remove(fs::path(out) / "parts/group-lamps");
     // What a merge leaves that was cut short goes.
     for (const char* file : {"group-000.json", "group-000-truth.png", ".tessera-0123456789abcdef.tmp"})
@@ -181,8 +178,9 @@ TEST_F(BenchStoring, whatNoRunHasMadeIsNeverDeleted) {
 
     const std::string other = folder("other");
     const fs::path file = folder_.write("other/parts", "mine");
-    EXPECT_THAT(benchRefusal([&] { BenchStore(other, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep); }),
-                HasSubstr(file.string() + ": is no file of a bench"));
+    EXPECT_THAT(
+        test::errorText<InputError>([&] { BenchStore(other, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep); }),
+        HasSubstr(file.string() + ": is no file of a bench"));
     EXPECT_EQ(fs::file_size(file), 4u);
 }
 
@@ -211,7 +209,7 @@ TEST_F(BenchStoring, mergedShardsEqualOneRun) {
 TEST_F(BenchStoring, shardsThatAreNoWholeRunAreNotMerged) {
     const std::string a = finishedShard("a", 1, 2, 3), b = finishedShard("b", 2, 2, 3);
     const auto merged = [&](const std::vector<std::string>& shards) {
-        return benchRefusal([&] { mergeRuns(shards, folder("all")); });
+        return test::errorText<InputError>([&] { mergeRuns(shards, folder("all")); });
     };
     EXPECT_THAT(merged({a}), HasSubstr("shard 2/2 is missing"));
     EXPECT_THAT(merged({a, b, a}), HasSubstr("both shard 1/2"));
@@ -220,15 +218,15 @@ TEST_F(BenchStoring, shardsThatAreNoWholeRunAreNotMerged) {
     EXPECT_THAT(merged({a, folder("nothing")}), HasSubstr("holds no bench"));
     { const BenchStore begun(folder("e"), madeUpIdentity(2, 2), madeUpPlan(3), EarlierRun::Keep); }
     EXPECT_THAT(merged({a, folder("e")}), HasSubstr("is not finished"));
-    EXPECT_THAT(benchRefusal([&] { mergeRuns({a, b}, a); }), HasSubstr("cannot be written over"));
-    EXPECT_EQ(merged({a, b}), "nothing was refused");
+    EXPECT_THAT(test::errorText<InputError>([&] { mergeRuns({a, b}, a); }), HasSubstr("cannot be written over"));
+    EXPECT_EQ(merged({a, b}), "");
 }
 
 TEST_F(BenchStoring, damagedFilesAreNamedWithARemedyInWordsOfOurOwn) {
     const std::string out = finishedShard("out", 1, 1, 1);
     const auto read = [&](const std::string& file, const std::string& text) {
         std::ofstream(out + "/parts/" + file) << text;
-        const std::string said = benchRefusal([&] { recordIn(out); });
+        const std::string said = test::errorText<InputError>([&] { recordIn(out); });
         EXPECT_THAT(said, testing::AllOf(HasSubstr(file), testing::Not(HasSubstr("json.exception")),
                                          testing::Not(HasSubstr("\n"))));
         return said;
@@ -278,11 +276,12 @@ TEST_F(BenchStoring, picturesAreFilesOfTheirRunAndAreThereBeforeShardsAreMerged)
     };
     std::ofstream(folder("secret") + "/notes.txt") << "private";
     const std::string outside = shardWith("outside", "../../secret/notes.txt");
-    EXPECT_THAT(benchRefusal([&] { recordIn(outside); }), HasSubstr("is no name of a picture beside it"));
-    EXPECT_THAT(benchRefusal([&] { mergeRuns({outside}, folder("all")); }),
+    EXPECT_THAT(test::errorText<InputError>([&] { recordIn(outside); }),
+                HasSubstr("is no name of a picture beside it"));
+    EXPECT_THAT(test::errorText<InputError>([&] { mergeRuns({outside}, folder("all")); }),
                 HasSubstr("is no name of a picture beside it"));
     const std::string incomplete = shardWith("incomplete", "group-000-truth.png");
-    EXPECT_THAT(benchRefusal([&] { mergeRuns({incomplete}, folder("all")); }),
+    EXPECT_THAT(test::errorText<InputError>([&] { mergeRuns({incomplete}, folder("all")); }),
                 testing::AllOf(HasSubstr(incomplete), HasSubstr("group-000-truth.png"), HasSubstr("is missing")));
     EXPECT_TRUE(fs::is_empty(folder("all")));
 }

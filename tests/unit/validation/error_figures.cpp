@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
+#include "tests/support/ErrorText.h"
 #include "tests/unit/validation/Samples.h"
 #include "validation/figures/Percentile.h"
 #include "validation/figures/PixelErrors.h"
@@ -212,9 +213,9 @@ TEST(ErrorFigures, displayFiguresUseTheDisplayPictures) {
 }
 
 TEST(ErrorFigures, picturesOfTwoSizesAreRefusedByName) {
-    EXPECT_EQ(
-        errorOf<InputError>([] { requireSameSize(greyPicture(2, 1, 1), "forward", greyPicture(1, 2, 1), "x.exr"); }),
-        "forward is 2x1 but x.exr is 1x2; pictures that are compared must be of one size");
+    EXPECT_EQ(test::errorText<InputError>(
+                  [] { requireSameSize(greyPicture(2, 1, 1), "forward", greyPicture(1, 2, 1), "x.exr"); }),
+              "forward is 2x1 but x.exr is 1x2; pictures that are compared must be of one size");
 }
 
 } // namespace

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
+#include "tests/support/ErrorText.h"
 #include "tests/support/UnderLedger.h"
 #include "tests/unit/validation/Samples.h"
 #include "validation/pictures/ReadPicture.h"
@@ -112,7 +113,7 @@ TEST(PictureFile, aBrokenInputIsAnInputErrorThatNamesTheFile) {
     for (const char* name :
          {"cut.exr", "cut-in-header.exr", "text.png", "empty.exr", "huge.pfm", "cut.pfm", "absent.exr", ""}) {
         const std::string path = folder.file(name);
-        const std::string message = errorOf<InputError>([&] { underLedger(readPicture, path); });
+        const std::string message = test::errorText<InputError>([&] { underLedger(readPicture, path); });
         EXPECT_THAT(message, AllOf(StartsWith(path + ": "), HasSubstr("; "), Not(HasSubstr("\n"))));
     }
 }
@@ -120,7 +121,7 @@ TEST(PictureFile, aBrokenInputIsAnInputErrorThatNamesTheFile) {
 /// Why a file with these bytes cannot be compared with, after its name.
 std::string refusalOf(const TemporaryFolder& folder, const std::string& name, const std::string& bytes) {
     writeText(folder.file(name), bytes);
-    const std::string message = errorOf<InputError>([&] { underLedger(readPicture, folder.file(name)); });
+    const std::string message = test::errorText<InputError>([&] { underLedger(readPicture, folder.file(name)); });
     EXPECT_THAT(message, StartsWith(folder.file(name) + ": "));
     return message.substr(std::min(message.size(), folder.file(name).size() + 2));
 }
@@ -146,8 +147,9 @@ TEST(PictureFile, picturesAreChargedBeforeTheyAreDecoded) {
     readPicture(folder.file("a.exr"), ledger);
     EXPECT_EQ(ledger.usedBytes(), kept);
     EXPECT_THAT(ledger.files(), ElementsAre(folder.file("a.exr")));
-    EXPECT_THAT(errorOf<InputError>([&] { underLedger(readPicture, folder.file("a.exr"), std::uint64_t{2} << 20); }),
-                HasSubstr("a.exr: the picture of 512x512 texels: asks for 4.0 MiB of memory"));
+    EXPECT_THAT(
+        test::errorText<InputError>([&] { underLedger(readPicture, folder.file("a.exr"), std::uint64_t{2} << 20); }),
+        HasSubstr("a.exr: the picture of 512x512 texels: asks for 4.0 MiB of memory"));
 }
 
 TEST(PictureFile, aPictureWithADataWindowIsComparedAsDisplayed) {
@@ -178,7 +180,7 @@ TEST(PictureFile, anUnwritableOutputIsARuntimeErrorAndNeverAnInputError) {
             }
         },
         std::runtime_error);
-    EXPECT_THAT(errorOf<std::runtime_error>([&] {
+    EXPECT_THAT(test::errorText<std::runtime_error>([&] {
                     writePng(path, {1, 1, {0, 0, 0}});
                 }),
                 HasSubstr("cannot write " + path));

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/Error.h"
+#include "tests/support/ErrorText.h"
 #include "tests/unit/validation/Samples.h"
 #include "validation/reference/Reflectance.h"
 #include "validation/stress/StressDirections.h"
@@ -144,7 +145,7 @@ TEST(StressResult, holdsExactlyWhenNothingIsBadAndItsFigureIsWithinTheTolerance)
 TEST(StressNames, aGroupIsAllItsCasesAndAnUnknownNameNamesTheNearest) {
     EXPECT_EQ(stressCasesNamed("scene/far").size(), 1u);
     EXPECT_EQ(stressCasesNamed("directions").size(), stressDirections().size());
-    EXPECT_THAT(errorOf<InputError>([] { stressCasesNamed("scene/fax"); }), testing::HasSubstr("scene/far"));
+    EXPECT_THAT(test::errorText<InputError>([] { stressCasesNamed("scene/fax"); }), testing::HasSubstr("scene/far"));
     EXPECT_THROW(stressCasesNamed("scen"), InputError);
 }
 
