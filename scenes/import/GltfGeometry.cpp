@@ -140,7 +140,7 @@ private:
                 continue;
             isLost_.resize(positions.size());
             isLost_[i] = true;
-            positions[i] = glm::vec3(0.0f);
+            positions[i] = {};
         }
     }
 

@@ -48,6 +48,16 @@ TEST_F(GlassSheets, showWhatLiesBehindByChannel) {
     expectShown(scene, wanted * glm::dvec3(0.25, 1.0, 0.0));
 }
 
+TEST_F(GlassSheets, almostEdgeOnPassWhatFresnelsFactorLeaves) {
+    Scene scene = flatScene(clearGlass());
+    scene.background = glm::vec3(1.0f);
+    for (const double cosine : {0.2, 0.006}) {
+        lookAtCosine(scene.cameras[0], cosine, 1e-4);
+        const double wanted = 0.96 * (1.0 - std::pow(1.0 - cosine, 5.0));
+        EXPECT_NEAR(double(center(scene).x), wanted, 2e-6) << "cosine " << cosine;
+    }
+}
+
 /// Transmission by R, thickness by G; a texel of 0 leaves a body that absorbs nothing.
 TEST_F(GlassSheets, areScaledByTheirTextures) {
     using scenes::TextureSlot;
