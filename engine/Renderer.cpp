@@ -13,6 +13,7 @@
 #include "renderer/frame/MaterialFeatures.h"
 #include "renderer/frame/TextureRoom.h"
 #include "renderer/graph/Execute.h"
+#include "renderer/graph/Plan.h"
 #include "scenes/Hook.h"
 
 namespace tessera::engine {
@@ -37,6 +38,33 @@ shader::SourceTree checkingHooks(shader::SourceTree shaders) {
     return shaders;
 }
 
+/// The resource of this name in plans, if the passes that run leave its newest version.
+std::optional<std::uint32_t> findUsed(const graph::Graph& graph, const graph::CompiledGraph& compiled,
+                                      const std::string& name) {
+    if (name.empty()) return std::nullopt;
+    const std::vector<std::string> names = graph::resourceNames(graph);
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end()) return std::nullopt;
+    const auto resource = std::uint32_t(found - names.begin());
+    const auto leavesNewest = [&](const graph::Graph::Use& use) {
+        return use.resource == resource && use.version == graph.resources()[resource].newestVersion;
+    };
+    const bool isUsed = std::ranges::any_of(compiled.order, [&](const graph::CompiledPass& entry) {
+        return std::ranges::any_of(graph.passes()[entry.pass].uses, leavesNewest);
+    });
+    return isUsed ? std::optional(resource) : std::nullopt;
+}
+
+/// Calls `act` with a handle of the newest version of a resource.
+template <typename Act>
+void withHandle(const graph::Graph& graph, std::uint32_t resource, const Act& act) {
+    const graph::Graph::Resource& named = graph.resources()[resource];
+    if (std::holds_alternative<graph::TextureDesc>(named.desc))
+        act(graph::TextureHandle{resource, named.newestVersion});
+    else
+        act(graph::BufferHandle{resource, named.newestVersion});
+}
+
 } // namespace
 
 struct Renderer::Drawn {
@@ -46,6 +74,7 @@ struct Renderer::Drawn {
     std::vector<DeclaredView> declared; ///< parallel to views
     graph::Graph graph;
     graph::CompiledGraph compiled;
+    std::optional<std::uint32_t> kept; ///< keptResource(), index into Graph::resources()
     std::unique_ptr<graph::Execution> execution;
 };
 
@@ -231,7 +260,13 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
     drawn->declared = declareFrame(drawn->graph, sources, after);
     tellSpreadOf(drawn->views);
     const bool prune = drawn->views.front().prepared.spec.settings.prune;
-    drawn->compiled = graph::compile(drawn->graph, {.cull = prune, .alias = prune});
+    const graph::CompileOptions options{.cull = prune, .alias = prune};
+    drawn->compiled = graph::compile(drawn->graph, options);
+    drawn->kept = findUsed(drawn->graph, drawn->compiled, keptName_);
+    if (drawn->kept && !drawn->graph.resources()[*drawn->kept].imported) {
+        withHandle(drawn->graph, *drawn->kept, [&](auto handle) { drawn->graph.output(handle); });
+        drawn->compiled = graph::compile(drawn->graph, options);
+    }
     programs_.warm(drawn->compiled.programs);
     drawn_.reset(); // its pictures go back to the pool
     auto execution = std::make_unique<graph::Execution>(drawn->graph, drawn->compiled, backend_, &programs_);
@@ -269,6 +304,21 @@ RenderedFrame readBack(const gpu::Texture& radiance, const gpu::Texture* display
     frame.radiance = flipped(radiance.downloadAs<float>(), frame.width, frame.height);
     if (display != nullptr) frame.display = flipped(display->downloadAs<std::uint8_t>(), frame.width, frame.height);
     return frame;
+}
+
+std::optional<KeptResource> Renderer::keptResource() const {
+    const Drawn& drawn = latest();
+    if (!drawn.kept) return std::nullopt;
+    KeptResource kept;
+    withHandle(drawn.graph, *drawn.kept, [&]<typename Handle>(Handle handle) {
+        if constexpr (std::is_same_v<Handle, graph::TextureHandle>) {
+            kept.texture = &drawn.execution->texture(handle);
+        } else {
+            kept.buffer = &drawn.execution->buffer(handle);
+            kept.bytes = drawn.execution->bytes(handle);
+        }
+    });
+    return kept;
 }
 
 std::vector<float> Renderer::downloadDepth(std::size_t view) const {

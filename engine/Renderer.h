@@ -77,6 +77,13 @@ struct SpreadProgress {
     bool isDone() const { return doneTiles == tiles; }
 };
 
+/// What a resource of a frame holds at the end of it: a texture, or so many bytes of a buffer.
+struct KeptResource {
+    const gpu::Texture* texture = nullptr;
+    const gpu::Buffer* buffer = nullptr;
+    std::size_t bytes = 0;
+};
+
 /// Renders pictures of one scene, with any technique and settings, on the context that is current. Everything derived
 /// from the scene is made once and kept.
 class Renderer {
@@ -110,6 +117,12 @@ public:
 
     /// An output of the latest draw() that its AfterOpaque declared.
     const gpu::Texture& texture(graph::TextureHandle output) const;
+
+    /// Frames from now on keep the resource that has this name in their plans (graph::Plan::Resource) to their end;
+    /// empty: none.
+    void keepResource(std::string name) { keptName_ = std::move(name); }
+    /// Of the latest draw(), until the next; none where it did not use that resource.
+    std::optional<KeptResource> keptResource() const;
 
     /// Depth of a view of the latest draw(): reverse-Z, rows from the bottom, 0 where nothing opaque was drawn.
     std::vector<float> downloadDepth(std::size_t view = 0) const;
@@ -201,6 +214,7 @@ private:
     shader::ProgramLibrary programs_;
     std::size_t reloaded_ = 0; ///< ProgramLibrary::reloaded() as forgetReloaded() knows it
     gpu::GraphBackend backend_;
+    std::string keptName_; ///< keepResource()
     frame::LightListMemory listMemory_;
     frame::ShadowMemories shadowMemories_;
     frame::GpuUvAtlases uvAtlases_;

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
-"""Draws pictures of the documents anew: those of the table below, into docs/images.
+"""Draws pictures of the documents anew: those of the table below, into docs/images; and `thumbnails`, those that the viewer
+shows of the built-in scenes, into viewer/thumbnails.
 
-Usage: tools/docs_pictures.py [NAME]... [--program build/release/apps/tessera] [--into docs/images]
+Usage: tools/docs_pictures.py [NAME]... [--program build/release/apps/tessera] [--into FOLDER]
 
 A picture is a row of panels, each a call of `tessera render`. Panels are drawn at twice their size and averaged, so that
 edges are smooth. Needs ImageMagick (Debian: imagemagick).
 """
 import argparse
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -61,6 +63,17 @@ PICTURES = {
 }
 
 
+def thumbnails(program, folder):
+    """256x144 of every built-in scene, without models of TESSERA_ASSETS, which others do not have."""
+    environment = {name: value for name, value in os.environ.items() if name != "TESSERA_ASSETS"}
+    listed = subprocess.run([program, "scenes"], check=True, text=True, stdout=subprocess.PIPE, env=environment).stdout
+    with tempfile.TemporaryDirectory() as scratch:
+        for scene in (line.split()[0] for line in listed.splitlines()[1:]):
+            picture = pathlib.Path(scratch) / "large.png"
+            subprocess.run([program, "render", scene, "-o", picture, "--size", "1024x576"], check=True, env=environment)
+            subprocess.run(["convert", picture, "-resize", "256x144", "-quality", "88", "-strip", folder / f"{scene}.jpg"], check=True)
+
+
 def draw(name, program, folder):
     (width, height), quality, panels = PICTURES[name]
     with tempfile.TemporaryDirectory() as scratch:
@@ -83,19 +96,24 @@ def draw(name, program, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0], formatter_class=argparse.RawDescriptionHelpFormatter,
-                                     epilog="Pictures: " + ", ".join(PICTURES))
+                                     epilog="Pictures: " + ", ".join([*PICTURES, "thumbnails"]))
     parser.add_argument("names", nargs="*", metavar="NAME", help="which ones (all)")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/apps/tessera")
-    parser.add_argument("--into", type=pathlib.Path, default=ROOT / "docs/images", metavar="FOLDER")
+    parser.add_argument("--into", type=pathlib.Path, metavar="FOLDER", help="instead of those folders")
     options = parser.parse_args()
-    unknown = [name for name in options.names if name not in PICTURES]
+    known = [*PICTURES, "thumbnails"]
+    unknown = [name for name in options.names if name not in known]
     if unknown:
-        sys.exit(f"no picture is called '{unknown[0]}'; valid are {', '.join(PICTURES)}")
+        sys.exit(f"no picture is called '{unknown[0]}'; valid are {', '.join(known)}")
     if not options.program.exists():
         sys.exit(f"{options.program} is not there; build it by ./run, or name another with --program")
-    for name in options.names or PICTURES:
+    program = options.program.resolve()
+    for name in options.names or known:
         print(name, flush=True)
-        draw(name, options.program.resolve(), options.into)
+        if name == "thumbnails":
+            thumbnails(program, options.into or ROOT / "viewer/thumbnails")
+        else:
+            draw(name, program, options.into or ROOT / "docs/images")
 
 
 if __name__ == "__main__":

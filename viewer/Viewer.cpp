@@ -29,6 +29,8 @@
 #include "viewer/show/MaterialOutline.h"
 #include "viewer/show/Measurements.h"
 #include "viewer/show/PictureDrawing.h"
+#include "viewer/show/ResourceCapture.h"
+#include "viewer/show/SceneThumbnails.h"
 #include "viewer/window/Gui.h"
 
 namespace tessera::viewer {
@@ -89,7 +91,7 @@ private:
     double now() const { return Window::nowSeconds(); }
     bool awaitsRest() const {
         return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.lacksSmoothing() || drawing_.tellsRate() ||
-               inspector_.awaitsRest() || outline_.awaitsRest();
+               inspector_.awaitsRest() || outline_.awaitsRest() || capture_.awaitsRest();
     }
     double glidesFrom() const { return Gliding{window_.isButtonHeld(), isMoving(state_), facts_.ms, shownAt_}.from(); }
     /// A minimised window shows nothing; a pending picture waits.
@@ -193,6 +195,7 @@ private:
         }
         screen_.forget();
         outline_.forget();
+        capture_.forget();
         drawing_.resume();
         pulse_.settle();
     }
@@ -255,12 +258,23 @@ private:
             if (facts_.inspection && facts_.inspection->isSurfaceKnown)
                 log_.line(fmt::format("inspected {}", fmt::join(inspectionLines(*facts_.inspection), "; ")));
         });
-        attempt([this, drew] {
-            const bool isAtRest = !drew && drawing_.isSettled() && now() >= pulse_.restAt;
-            if (outline_.update(facts_, state_, screen_, drawing_.wanted().looks[0], isAtRest, [this] {
-                    window_.poll();
-                    return window_.shouldClose() || window_.hasActivity() || notedEnd() != 0;
-                })) {
+        const bool isAtRest = !drew && drawing_.isSettled() && now() >= pulse_.restAt;
+        const auto givesUp = [this] {
+            window_.poll();
+            return window_.shouldClose() || window_.hasActivity() || notedEnd() != 0;
+        };
+        attempt([this] {
+            if (!state_.wantsThumbnails || !facts_.thumbnails.empty()) return;
+            facts_.thumbnails = thumbnails_.textures();
+            pulse_.another();
+        });
+        attempt([&] {
+            if (!capture_.update(facts_, state_, screen_, drawing_.wanted(), isAtRest, givesUp)) return;
+            pulse_.another();
+            if (facts_.resource) log_.line("captured " + facts_.resource->contents->text());
+        });
+        attempt([&] {
+            if (outline_.update(facts_, state_, screen_, drawing_.wanted().looks[0], isAtRest, givesUp)) {
                 pulse_.another();
                 if (facts_.materialOutline) {
                     const auto material = std::size_t(facts_.materialOutline->material);
@@ -448,6 +462,8 @@ private:
     Measurements measurements_;
     Inspector inspector_;
     MaterialOutline outline_;
+    ResourceCapture capture_;
+    SceneThumbnails thumbnails_;
     Document document_; ///< last: its threads end before what they wake
 };
 

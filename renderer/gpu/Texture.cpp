@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cassert>
 #include <stdexcept>
 
@@ -123,21 +124,42 @@ std::vector<std::byte> Texture::downloadBytes(int level, int layer) const {
 }
 
 void Texture::downloadInto(int level, std::span<std::byte> texels, int layer) const {
+    assert(texels.size() == levelBytes(level));
+    const GlFormat& format = glFormat(desc_.format);
+    readLevel(format.transferFormat, format.transferType, level, texels, layer);
+}
+
+std::vector<glm::uvec4> Texture::downloadComponents(int level, int layer) const {
+    const graph::FormatInfo& info = graph::formatInfo(desc_.format);
+    const graph::TextureDesc size = graph::mipDesc(desc_, level);
+    std::vector<glm::uvec4> texels(std::size_t(size.width) * std::size_t(size.height));
+    const std::span<std::byte> bytes = std::as_writable_bytes(std::span(texels));
+    if (!info.depth) {
+        readLevel(info.integer ? GL_RGBA_INTEGER : GL_RGBA, info.integer ? GL_UNSIGNED_INT : GL_FLOAT, level, bytes,
+                  layer);
+        return texels;
+    }
+    const std::vector<float> depths = downloadAs<float>(level, layer);
+    const auto bits = [](float number) { return std::bit_cast<std::uint32_t>(number); };
+    std::ranges::transform(depths, texels.begin(),
+                           [&](float depth) { return glm::uvec4(bits(depth), 0u, 0u, bits(1.0f)); });
+    return texels;
+}
+
+void Texture::readLevel(std::uint32_t transferFormat, std::uint32_t transferType, int level,
+                        std::span<std::byte> texels, int layer) const {
     assert(level >= 0 && level < desc_.levels && layer >= 0 && layer < desc_.layers);
     if (desc_.samples > 1)
         throw std::runtime_error(
             fmt::format("{} cannot be read back; resolve it with blit() first", describe(label_, desc_)));
-    assert(texels.size() == levelBytes(level));
-    const GlFormat& format = glFormat(desc_.format);
     // GL counts in a signed 32-bit size; larger levels are read in bands of rows.
     const graph::TextureDesc size = graph::mipDesc(desc_, level);
     const std::size_t rowBytes = texels.size() / std::size_t(size.height);
     const int rowsAtOnce = int(std::clamp<std::size_t>((std::size_t(1) << 30) / rowBytes, 1, std::size_t(size.height)));
     for (int row = 0; row < size.height; row += rowsAtOnce) {
         const int rows = std::min(rowsAtOnce, size.height - row);
-        glGetTextureSubImage(id_.value(), level, 0, row, layer, size.width, rows, 1, format.transferFormat,
-                             format.transferType, GLsizei(rowBytes * std::size_t(rows)),
-                             texels.data() + rowBytes * std::size_t(row));
+        glGetTextureSubImage(id_.value(), level, 0, row, layer, size.width, rows, 1, transferFormat, transferType,
+                             GLsizei(rowBytes * std::size_t(rows)), texels.data() + rowBytes * std::size_t(row));
     }
     throwIfFailed(fmt::format("reading {}", describe(label_, desc_)));
 }

@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "renderer/gpu/Id.h"
 #include "renderer/graph/Graph.h"
 
@@ -49,6 +51,10 @@ public:
         return values;
     }
 
+    /// The same converted to four components of 32 bits a texel, (0, 0, 0, 1) where the format has none: unsigned
+    /// numbers of integer formats, else bits of floats.
+    std::vector<glm::uvec4> downloadComponents(int level = 0, int layer = 0) const;
+
     const graph::TextureDesc& desc() const { return desc_; }
     std::size_t levelBytes(int level) const; ///< of one layer
     std::uint32_t id() const { return id_.value(); }
@@ -58,6 +64,10 @@ public:
     const std::shared_ptr<const std::uint64_t>& serial() const { return serial_; }
 
 private:
+    /// As these GLenum values say.
+    void readLevel(std::uint32_t transferFormat, std::uint32_t transferType, int level, std::span<std::byte> texels,
+                   int layer) const;
+
     std::string label_;
     graph::TextureDesc desc_;
     std::shared_ptr<const std::uint64_t> serial_;

@@ -27,7 +27,8 @@ enum class Format : std::uint8_t {
 struct FormatInfo {
     Format format;
     std::string_view name; ///< as in plans and documentation, e.g. "RGBA32F"
-    int bytes;             ///< a texel
+    int components;
+    int bytes; ///< a texel
     bool depth;
     bool integer;
 };

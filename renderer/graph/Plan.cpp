@@ -12,16 +12,6 @@
 namespace tessera::graph {
 namespace {
 
-std::vector<std::string> uniqueNames(const Graph& graph) {
-    std::map<std::string, int> seen;
-    std::vector<std::string> names;
-    for (const Graph::Resource& resource : graph.resources()) {
-        const int count = ++seen[resource.name];
-        names.push_back(count == 1 ? resource.name : fmt::format("{} ({})", resource.name, count));
-    }
-    return names;
-}
-
 /// The inputs of a pass; a resource that it only reads back from itself is no input.
 std::vector<std::string> readsOf(const Graph::Pass& pass, const std::vector<std::string>& names) {
     std::vector<std::string> reads;
@@ -72,8 +62,18 @@ Plan::Resource describe(const Graph::Resource& resource, const CompiledResource&
 
 } // namespace
 
+std::vector<std::string> resourceNames(const Graph& graph) {
+    std::map<std::string, int> seen;
+    std::vector<std::string> names;
+    for (const Graph::Resource& resource : graph.resources()) {
+        const int count = ++seen[resource.name];
+        names.push_back(count == 1 ? resource.name : fmt::format("{} ({})", resource.name, count));
+    }
+    return names;
+}
+
 Plan makePlan(const Graph& graph, const CompiledGraph& compiled) {
-    const std::vector<std::string> names = uniqueNames(graph);
+    const std::vector<std::string> names = resourceNames(graph);
     Plan plan;
     for (const CompiledPass& entry : compiled.order) {
         const Graph::Pass& pass = graph.passes()[entry.pass];

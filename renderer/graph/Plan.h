@@ -56,8 +56,11 @@ struct Plan {
 };
 inline constexpr int kPlanSchema = 1;
 
-/// The graph's share of a plan: passes, resources in use, bytes, and the culled passes among leftOut. Resources of the
-/// same name are told apart by a number, "blur", "blur (2)".
+/// By resource of the graph, its name in plans: resources of the same name are told apart by a number, "blur", "blur
+/// (2)".
+std::vector<std::string> resourceNames(const Graph& graph);
+
+/// The graph's share of a plan: passes, resources in use, bytes, and the culled passes among leftOut.
 Plan makePlan(const Graph& graph, const CompiledGraph& compiled);
 
 std::string planText(const Plan& plan); ///< for people, tables that fit 100 columns

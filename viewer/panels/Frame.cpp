@@ -14,6 +14,7 @@
 #include "viewer/panels/Markers.h"
 #include "viewer/panels/Overlays.h"
 #include "viewer/panels/ProgressBox.h"
+#include "viewer/panels/ResourceBox.h"
 #include "viewer/panels/Widgets.h"
 #include "viewer/session/DrawnLook.h"
 #include "viewer/session/Playback.h"
@@ -48,7 +49,7 @@ bool hasMovement(const State& state) {
 /// From the top: what a scene holds, how it is seen, then what those want who study techniques. Until a scene is there
 /// nobody knows how its picture begins.
 constexpr Section kSections[] = {
-    {"Scene", true, [](State& state, const Facts&) { scenePanel(state); }, {}, [](const State&) { return true; }},
+    {"Scene", true, scenePanel, {}, [](const State&) { return true; }},
     {"Lights", false, [](State& state, const Facts&) { lightsPanel(state); }, Selected::Light},
     {"Materials", false, [](State& state, const Facts&) { materialsPanel(state); }, Selected::Material},
     {"View", true, [](State& state, const Facts&) { viewPanel(state); }},
@@ -256,7 +257,7 @@ std::string pictureTimeText(double ms) {
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale) {
     const float height = ImGui::GetIO().DisplaySize.y;
     state.loupes.clear();
-    state.wantsPlan = state.showsMaterial = false; // unless a panel that is seen says so
+    state.wantsPlan = state.wantsThumbnails = state.showsMaterial = false; // unless a panel that is seen says so
     if (state.showsPanel) sidePanel(state, facts, height, scale);
     if (area.size.x > 0.0f) {
         statusLine(state, facts, area, scale);
@@ -268,6 +269,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         drawNames(state, facts, area, scale);
         drawInspector(state, facts, area);
         drawPins(state, area);
+        drawResource(state, facts, area);
         drawDragText(state, area);
         drawPanelEdge(state, area, scale);
         if (facts.told()) drawProgress(*facts.told(), area, state.inspectorBox, scale, *ImGui::GetBackgroundDrawList());

@@ -8,7 +8,7 @@
 namespace tessera::viewer {
 namespace {
 
-void passes(const graph::Plan& plan) {
+void passes(State&, const graph::Plan& plan) {
     for (const graph::Plan::Pass& pass : plan.passes) {
         ImGui::BulletText("%s", pass.name.c_str());
         ImGui::Indent();
@@ -18,21 +18,36 @@ void passes(const graph::Plan& plan) {
     }
 }
 
-void resources(const graph::Plan& plan) {
-    for (const graph::Plan::Resource& resource : plan.resources) {
-        std::string text = fmt::format("{}  {}", resource.name, resource.format);
-        if (resource.width > 0) text += fmt::format("  {}x{}", resource.width, resource.height);
-        if (resource.samples > 1) text += fmt::format("  {} samples", resource.samples);
-        if (resource.bytes) text += "  " + graph::readableBytes(*resource.bytes);
-        if (!resource.aliasOf.empty()) text += "  in the memory of " + resource.aliasOf;
-        ImGui::Bullet();
-        paragraph(text);
+/// A click on the name shows what the resource holds.
+void resourceRows(State& state, const graph::Plan::Resource& resource) {
+    const bool isShown = state.resource.name == resource.name;
+    ImGui::Bullet();
+    if (ImGui::Selectable(labelOf(resource.name).c_str(), isShown)) {
+        state.resource.show(isShown ? std::string() : resource.name);
+        // Light, of many magnitudes.
+        state.resource.isCurved = resource.format == "RGBA32F" || resource.format == "RGBA16F";
     }
+    tip("Shows what it holds");
+    std::string text(resource.format);
+    if (resource.width > 0) text += fmt::format("  {}x{}", resource.width, resource.height);
+    if (resource.samples > 1) text += fmt::format("  {} samples", resource.samples);
+    if (resource.bytes) text += "  " + graph::readableBytes(*resource.bytes);
+    if (!resource.aliasOf.empty()) text += "  in the memory of " + resource.aliasOf;
+    ImGui::Indent(2.0f * ImGui::GetFontSize());
+    paragraph(text);
+    ImGui::Unindent(2.0f * ImGui::GetFontSize());
+}
+
+/// Textures first, which more people look at.
+void resources(State& state, const graph::Plan& plan) {
+    for (const bool areTextures : {true, false})
+        for (const graph::Plan::Resource& resource : plan.resources)
+            if ((resource.width > 0) == areTextures) resourceRows(state, resource);
     paragraph(fmt::format("{} in all, {} if none shared memory", graph::readableBytes(plan.bytes),
                           graph::readableBytes(plan.bytesWithoutAliasing)));
 }
 
-void leftOut(const graph::Plan& plan) {
+void leftOut(State&, const graph::Plan& plan) {
     for (const graph::Plan::LeftOut& item : plan.leftOut) {
         const std::string saved = item.bytes > 0 ? fmt::format(" ({})", graph::readableBytes(item.bytes)) : "";
         ImGui::Bullet();
@@ -40,7 +55,7 @@ void leftOut(const graph::Plan& plan) {
     }
 }
 
-void choices(const graph::Plan& plan) {
+void choices(State&, const graph::Plan& plan) {
     for (const graph::Plan::Choice& choice : plan.choices) {
         ImGui::Bullet();
         paragraph(fmt::format("{}: {}; {}", choice.what, choice.chosen, choice.why));
@@ -48,9 +63,10 @@ void choices(const graph::Plan& plan) {
     for (const auto& [name, count] : plan.counters) fact(name.c_str(), fmt::format("{}", count));
 }
 
-void part(const char* title, bool open, const graph::Plan& plan, void (*draw)(const graph::Plan&)) {
+void part(const char* title, bool open, State& state, const graph::Plan& plan,
+          void (*draw)(State&, const graph::Plan&)) {
     if (!ImGui::TreeNodeEx(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0)) return;
-    draw(plan);
+    draw(state, plan);
     ImGui::TreePop();
 }
 
@@ -59,10 +75,10 @@ void part(const char* title, bool open, const graph::Plan& plan, void (*draw)(co
 void graphPanel(State& state, const Facts& facts) {
     state.wantsPlan = true;
     if (!facts.plan) return;
-    part("Passes", true, *facts.plan, passes);
-    part("Resources", false, *facts.plan, resources);
-    part("Left out, and why", true, *facts.plan, leftOut);
-    part("Choices", false, *facts.plan, choices);
+    part("Passes", true, state, *facts.plan, passes);
+    part("Resources", false, state, *facts.plan, resources);
+    part("Left out, and why", true, state, *facts.plan, leftOut);
+    part("Choices", false, state, *facts.plan, choices);
 }
 
 } // namespace tessera::viewer

@@ -6,7 +6,7 @@
 /// (State::requests).
 namespace tessera::viewer {
 
-void scenePanel(State& state);
+void scenePanel(State& state, const Facts& facts);
 void framePanel(State& state);
 void viewPanel(State& state);
 void environmentPanel(State& state, const Facts& facts);

@@ -19,16 +19,19 @@ std::string shortName(const std::string& source) {
     return std::filesystem::path(source).filename().string();
 }
 
-void sceneList(State& state) {
+void sceneList(State& state, const Facts& facts) {
     row("Scene");
     const std::string shown = state.open ? shortName(state.open->source()) : "none";
     if (!ImGui::BeginCombo("##Scene", labelOf(shown).c_str(), ImGuiComboFlags_HeightLargest)) return;
     closeOnEscape();
+    state.wantsThumbnails = true;
+    const glm::vec2 pictureSize = glm::vec2(20.0f, 11.25f) * ImGui::GetFontSize();
     const auto entry = [&](const std::string& source, std::string_view meaning) {
         const bool isOpen = state.open && identityOf(state.open->source()) == identityOf(source);
         ImGui::PushID(source.c_str());
         if (ImGui::Selectable(labelOf(shortName(source)).c_str(), isOpen)) state.requests.open = source;
-        tip(meaning);
+        const auto found = facts.thumbnails.find(source);
+        tip(meaning, found == facts.thumbnails.end() ? SmallPicture{} : SmallPicture{found->second, pictureSize});
         ImGui::PopID();
     };
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes())
@@ -64,8 +67,8 @@ void variantList(State& state) {
 
 } // namespace
 
-void scenePanel(State& state) {
-    sceneList(state);
+void scenePanel(State& state, const Facts& facts) {
+    sceneList(state, facts);
     if (ImGui::Button("Open ... (Ctrl+O)", {-FLT_MIN, 0.0f})) state.requests.askWhatToOpen = true;
     tip("A scene, a model or an environment of your own");
     if (!state.loading.empty()) {

@@ -39,8 +39,11 @@ bool isUsed(Hovered& latest) {
     return latest.isClicked;
 }
 
-void tooltip(std::string_view words) {
+void tooltip(std::string_view words, const SmallPicture& picture = {}) {
     ImGui::BeginTooltip();
+    if (picture.texture != 0)
+        ImGui::Image(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.texture)),
+                     {picture.sizePoints.x, picture.sizePoints.y});
     ImGui::PushTextWrapPos(ImGui::GetFontSize() * kTipWidthEm);
     text(words);
     ImGui::PopTextWrapPos();
@@ -239,10 +242,10 @@ void errorParagraph(std::string_view words) {
     ImGui::PopStyleColor();
 }
 
-void tip(std::string_view words) {
+void tip(std::string_view words, const SmallPicture& picture) {
     static Hovered latest;
     if (words.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || isUsed(latest)) return;
-    tooltip(words);
+    tooltip(words, picture);
 }
 
 void fact(const char* label, const std::string& value) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -97,8 +98,13 @@ void closeOnEscape();
 void paragraph(std::string_view text);
 /// The same in the colour of errors.
 void errorParagraph(std::string_view text);
-/// A box beside the pointer while it rests on the latest item, until that is clicked.
-void tip(std::string_view text);
+/// A texture on the GPU, rows from the top.
+struct SmallPicture {
+    std::uint32_t texture = 0; ///< GL's name; 0: none
+    glm::vec2 sizePoints{0.0f};
+};
+/// A box beside the pointer while it rests on the latest item, until that is clicked; a picture above the words.
+void tip(std::string_view text, const SmallPicture& picture = {});
 /// A name and a value in one row.
 void fact(const char* label, const std::string& value);
 

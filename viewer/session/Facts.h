@@ -1,5 +1,8 @@
 #pragma once
 #include <array>
+#include <functional>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +14,7 @@
 #include "viewer/edit/Contour.h"
 #include "viewer/session/Inspection.h"
 #include "viewer/session/Look.h"
+#include "viewer/session/ResourceView.h"
 
 namespace tessera::viewer {
 
@@ -25,7 +29,8 @@ struct Progress {
 /// What panels show of the frames that were drawn.
 struct Facts {
     std::array<std::optional<Look>, 2> shown; ///< looks of the pictures in the window, by side; none: no picture
-    std::array<std::optional<engine::DrawnShadows>, 2> shadows; ///< of the same
+    std::array<std::optional<engine::DrawnShadows>, 2> shadows;   ///< of the same
+    std::map<std::string, std::uint32_t, std::less<>> thumbnails; ///< GL's names by built-in scene, on request
     bool isPreparing = false; ///< the next frame is the first of its kind, whose shaders may have to be compiled
     bool isSpreading = false; ///< the next frame computes anew how light spreads over surfaces
     std::optional<Progress> progress;   ///< of the picture
@@ -65,6 +70,13 @@ struct Facts {
         std::vector<Contour> contours;
     };
     std::optional<MaterialContours> materialOutline;
+    /// A resource of the render graph, as the window is to show it.
+    struct Resource {
+        std::shared_ptr<const ResourceContents> contents;
+        std::uint32_t picture = 0; ///< GL's name of a texture, its rows from the top; 0: it is no texture
+        NumberRange range;         ///< from black to white in it
+    };
+    std::optional<Resource> resource;
     std::optional<validation::ErrorFigures> figures; ///< of the left picture against the right
     bool figuresAreOld = false;                      ///< newer ones are on their way
 };

@@ -65,10 +65,12 @@ constexpr int kControl = GLFW_MOD_CONTROL;
 constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_F1, kNone, "F1 or H", "this help", [](State& s) { s.showsHelp = !s.showsHelp; }, "Window"},
     {GLFW_KEY_H, kNone, "", "", [](State& s) { s.showsHelp = !s.showsHelp; }},
-    {GLFW_KEY_ESCAPE, kNone, "Esc", "close the help, cancel what takes long, or close the latest message",
+    {GLFW_KEY_ESCAPE, kNone, "Esc", "close the help, cancel what takes long, or close the latest message or resource",
      [](State& s) {
          if (!s.showsHelp && s.isCancellable) {
              s.requests.cancel = true;
+         } else if (!s.showsHelp && s.notice.text.empty() && s.shaderFaults.empty()) {
+             s.resource = {};
          } else if (!s.showsHelp) {
              s.notice = {};
              s.shaderFaults.clear();

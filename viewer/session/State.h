@@ -11,9 +11,11 @@
 #include "viewer/edit/Scatter.h"
 #include "viewer/session/FileDialog.h"
 #include "viewer/session/Look.h"
+#include "viewer/session/Magnification.h"
 #include "viewer/session/OpenScene.h"
 #include "viewer/session/Preferences.h"
 #include "viewer/session/Question.h"
+#include "viewer/session/ResourceView.h"
 #include "viewer/session/Timings.h"
 
 namespace tessera::viewer {
@@ -52,22 +54,6 @@ struct Box {
         return glm::all(glm::lessThan(corner, other.corner + other.size)) &&
                glm::all(glm::lessThan(other.corner, corner + size));
     }
-};
-
-/// How large the window shows the picture's pixels: a part of the picture fills its place.
-struct Magnification {
-    static constexpr int kMost = 64;
-    int times = 1;          ///< a power of two; 1: all of it is shown
-    glm::vec2 corner{0.0f}; ///< of that part, a share of the picture's size from the upper left
-
-    bool isOn() const { return times > 1; }
-    /// The place of the picture that is shown at a share of the window's part, and back.
-    glm::vec2 placeAt(const glm::vec2& share) const { return corner + share / float(times); }
-    glm::vec2 shareOf(const glm::vec2& place) const { return (place - corner) * float(times); }
-    /// Doubles or halves it so often; the pixel at a share stays there.
-    void zoom(int steps, const glm::vec2& share);
-    /// Moves the picture by a share of the window's part.
-    void pan(const glm::vec2& share);
 };
 
 /// What was told of a pixel, kept until it is removed.
@@ -173,8 +159,10 @@ struct State {
     std::string dragText;            ///< what the drag in progress sets, for the user
     bool isCancellable = false;      ///< something takes long, and the window says that Esc cancels it
     bool showsMaterial = false;      ///< a panel shows the selected material
+    bool wantsThumbnails = false;    ///< a panel lists the built-in scenes
     bool wantsPlan = false;          ///< a panel shows the plan of the active side's frame
-    std::string command;             ///< that renders the picture, on request
+    ResourceView resource;
+    std::string command; ///< that renders the picture, on request
     Timings timings;
 
     std::optional<Question> question; ///< waits for an answer, and all else waits for that

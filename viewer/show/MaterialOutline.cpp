@@ -5,6 +5,7 @@
 
 #include "renderer/gpu/Bands.h"
 #include "renderer/graph/Execute.h"
+#include "viewer/show/KeepsUnused.h"
 
 namespace tessera::viewer {
 namespace {
@@ -16,19 +17,6 @@ std::vector<std::uint8_t> instancesOf(const scenes::Scene& scene, int material) 
         for (const scenes::MeshInstance& instance : node.instances) haveIt.push_back(instance.material == material);
     return haveIt;
 }
-
-/// While one lives, frames make nothing older that they do not use: light that is spread, and shadow maps, are for the
-/// pictures that follow, however many outlines were found in between.
-class KeepsUnused {
-public:
-    explicit KeepsUnused(gpu::GraphBackend& backend) : backend_(backend) { backend_.setCountsIdleFrames(false); }
-    ~KeepsUnused() { backend_.setCountsIdleFrames(true); }
-    KeepsUnused(const KeepsUnused&) = delete;
-    KeepsUnused& operator=(const KeepsUnused&) = delete;
-
-private:
-    gpu::GraphBackend& backend_;
-};
 
 /// Whether pictures of a view show the scene's surfaces, as frames of the view ids do. While a hook moves vertices too
 /// far, only the view that marks them has frames.

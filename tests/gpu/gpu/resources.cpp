@@ -1,3 +1,4 @@
+#include <bit>
 #include <cstring>
 #include <numeric>
 
@@ -9,6 +10,7 @@
 #include "renderer/gpu/Sampler.h"
 #include "renderer/gpu/TexelBuffer.h"
 #include "renderer/gpu/Texture.h"
+#include "tests/support/ErrorText.h"
 #include "tests/support/GlContext.h"
 
 namespace tessera::gpu {
@@ -21,16 +23,6 @@ using testing::HasSubstr;
 class BufferTest : public test::GlTest {};
 class TextureTest : public test::GlTest {};
 class TexelBufferTest : public test::GlTest {};
-
-template <typename Make>
-std::string faultOf(const Make& make) {
-    try {
-        make();
-    } catch (const std::runtime_error& error) {
-        return error.what();
-    }
-    return "no exception";
-}
 
 TEST_F(BufferTest, writtenBytesAreReadBack) {
     for (const BufferUse use : {BufferUse::Static, BufferUse::Dynamic, BufferUse::Readback}) {
@@ -62,8 +54,29 @@ TEST_F(BufferTest, aMovedBufferIsTheSameOne) {
 
 TEST_F(BufferTest, tooLargeABufferIsRefusedByLabelAndSize) {
     const std::size_t bytes = std::size_t(1) << 46; // 64 TiB: no machine has it, and it fits GLsizeiptr
-    EXPECT_THAT(faultOf([&] { Buffer("light list", bytes); }),
+    EXPECT_THAT(test::errorText<std::runtime_error>([&] { Buffer("light list", bytes); }),
                 HasSubstr("not enough graphics memory for buffer 'light list' (70368744177664 bytes)"));
+}
+
+TEST_F(TextureTest, componentsAreReadAsFloatsOrWholeNumbersOfEveryFormat) {
+    const auto bits = [](float number) { return std::bit_cast<std::uint32_t>(number); };
+    for (int i = 0; i < int(graph::Format::Count); ++i) {
+        const graph::FormatInfo& info = graph::formatInfo(graph::Format(i));
+        SCOPED_TRACE(info.name);
+        const Texture texture("components", {info.format, 2, 1, 1});
+        texture.upload(0, std::vector<std::byte>(std::size_t(2 * info.bytes)));
+        glm::uvec4 zero(0u, 0u, 0u, info.components == 4 ? 0u : info.integer ? 1u : bits(1.0f));
+        EXPECT_THAT(texture.downloadComponents(), Each(zero));
+    }
+    const Texture depth("components", {graph::Format::Depth32Float, 1, 1, 1});
+    depth.upload(0, std::vector<float>{0.25f});
+    EXPECT_THAT(depth.downloadComponents(), ElementsAre(glm::uvec4(bits(0.25f), 0u, 0u, bits(1.0f))));
+    const Texture bytes("components", {graph::Format::Rgba8Unorm, 1, 1, 1});
+    bytes.upload(0, std::vector<std::uint8_t>{255, 0, 255, 0});
+    EXPECT_THAT(bytes.downloadComponents(), ElementsAre(glm::uvec4(bits(1.0f), bits(0.0f), bits(1.0f), bits(0.0f))));
+    const Texture counts("components", {graph::Format::Rg16Uint, 1, 1, 1});
+    counts.upload(0, std::vector<std::uint16_t>{65535, 3});
+    EXPECT_THAT(counts.downloadComponents(), ElementsAre(glm::uvec4(65535u, 3u, 0u, 1u)));
 }
 
 TEST_F(TextureTest, texelsOfEveryFormatSurviveARoundTrip) {
@@ -100,13 +113,16 @@ TEST_F(TextureTest, mipLevelsHalveDownToOneTexel) {
 
 TEST_F(TextureTest, sizesAndSamplesBeyondTheDriverAreRefusedByName) {
     const int side = context().capabilities().maxTextureSize + 1;
-    EXPECT_THAT(faultOf([&] {
+    EXPECT_THAT(test::errorText<std::runtime_error>([&] {
                     Texture("wide", {graph::Format::R8Uint, side, 1, 1});
                 }),
                 HasSubstr("texture 'wide' (" + std::to_string(side) + " x 1 R8UI) is larger than this driver's limit"));
-    EXPECT_THAT(faultOf([&] { Texture("none", {graph::Format::R8Uint, 0, 4, 1}); }), HasSubstr("has no texel"));
+    EXPECT_THAT(test::errorText<std::runtime_error>([&] {
+                    Texture("none", {graph::Format::R8Uint, 0, 4, 1});
+                }),
+                HasSubstr("has no texel"));
     const int samples = context().capabilities().maxSamples * 2;
-    EXPECT_THAT(faultOf([&] {
+    EXPECT_THAT(test::errorText<std::runtime_error>([&] {
                     Texture("fine", {graph::Format::Rgba8Unorm, 4, 4, samples});
                 }),
                 HasSubstr("has more samples than this driver's limit"));
@@ -114,7 +130,8 @@ TEST_F(TextureTest, sizesAndSamplesBeyondTheDriverAreRefusedByName) {
 
 TEST_F(TextureTest, aMultisampledTextureIsNotReadBackUnresolved) {
     const Texture texture("many", {graph::Format::Rgba32Float, 4, 4, 4});
-    EXPECT_THAT(faultOf([&] { texture.downloadBytes(); }), HasSubstr("resolve it with blit() first"));
+    EXPECT_THAT(test::errorText<std::runtime_error>([&] { texture.downloadBytes(); }),
+                HasSubstr("resolve it with blit() first"));
 }
 
 TEST_F(TextureTest, serialsAreNotUsedTwice) {
@@ -154,7 +171,7 @@ void main() {
 
 TEST_F(TexelBufferTest, aFormatThatBufferTexturesLackIsRefusedByName) {
     const Buffer buffer("b", 64);
-    EXPECT_THAT(faultOf([&] { TexelBuffer("t", graph::Format::Srgb8Alpha8, buffer); }),
+    EXPECT_THAT(test::errorText<std::runtime_error>([&] { TexelBuffer("t", graph::Format::Srgb8Alpha8, buffer); }),
                 HasSubstr("texel buffer 't': buffer textures cannot be SRGB8_ALPHA8"));
 }
 

@@ -54,7 +54,7 @@ TEST_F(Panels, theVariantsOfModelsAreAListWhereThereAreAny) {
         scene.variants = variants;
         scene.notes = {"a note of the importer"};
         State state = test::stateOf(std::move(scene), load);
-        const std::string text = textOf([&] { scenePanel(state); });
+        const std::string text = textOf([&] { scenePanel(state, {}); });
         EXPECT_THAT(text, HasSubstr("a note of the importer"));
         EXPECT_FALSE(state.requests.variant) << "nobody chose one";
         return text;
@@ -385,10 +385,10 @@ TEST_F(Panels, settingsAppearWithTheSceneThatDecidesThem) {
 TEST_F(Panels, theSceneHasASliderForEachParameterOfItsHook) {
     scenes::Scene scene = scenes::loadScene("room");
     State state = test::stateOf(scene);
-    EXPECT_THAT(textOf([&] { scenePanel(state); }), Not(HasSubstr("windStrength")));
+    EXPECT_THAT(textOf([&] { scenePanel(state, {}); }), Not(HasSubstr("windStrength")));
     scene.hook.emplace().parameters = {{"windStrength", 0.5f, 0.0f, 2.0f}};
     state = test::stateOf(scene);
-    EXPECT_THAT(textOf([&] { scenePanel(state); }), HasSubstr("windStrength"));
+    EXPECT_THAT(textOf([&] { scenePanel(state, {}); }), HasSubstr("windStrength"));
     EXPECT_FALSE(state.open->isEdited());
 }
 

@@ -1,0 +1,144 @@
+#include "viewer/panels/ResourceBox.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include "renderer/graph/Access.h"
+#include "renderer/graph/Plan.h"
+#include "viewer/panels/Widgets.h"
+
+namespace tessera::viewer {
+namespace {
+
+constexpr Choice kChannels[] = {
+    {"colours", "red, green and blue"}, {"red", ""}, {"green", ""}, {"blue", ""}, {"alpha", ""}};
+constexpr Choice kWords[] = {{"whole numbers", ""}, {"floats", ""}, {"hexadecimal", ""}};
+
+/// Whether another one was chosen.
+template <typename Enum>
+bool chooseOne(const char* label, Enum& value, std::span<const Choice> choices, std::string_view meaning) {
+    const auto chosen = choose(label, choices[std::size_t(value)].name, choices, std::size_t(value), meaning);
+    if (chosen) value = Enum(*chosen);
+    return chosen.has_value();
+}
+
+/// One of several, counted from 0.
+void numberRow(const char* label, int& value, int count, std::string_view meaning) {
+    if (count < 2) return;
+    row(label, meaning);
+    slideNumber(fmt::format("##{}", label).c_str(), value, 0, count - 1, "%d");
+}
+
+void textureRows(ResourceView& view, const graph::TextureDesc& desc, const NumberRange& range) {
+    const graph::FormatInfo& format = graph::formatInfo(desc.format);
+    numberRow("Level", view.level, desc.levels, "Each is half as wide and high as the one before");
+    numberRow("Layer", view.layer, desc.layers, "Of a cube its sides: +x, -x, +y, -y, +z, -z");
+    if (format.components > 1)
+        chooseOne("Channels", view.channels, std::span(kChannels).first(std::size_t(format.components) + 1),
+                  "What the picture shows; the numbers below it are all of them");
+    row("Range", "Numbers that are shown black and white");
+    if (ImGui::Checkbox("of the data", &view.fitsRange) && !view.fitsRange) {
+        view.least = float(range.least);
+        view.most = float(range.most);
+    }
+    if (!view.fitsRange) {
+        glm::dvec3 ends(view.least, view.most, 0.0);
+        ImGui::SameLine();
+        const double speed = std::max(range.most - range.least, 1e-6) / 200.0;
+        if (dragNumbers("##range", ends, 2, float(speed), -1e9, 1e9, "%.4g")) {
+            view.least = float(ends.x);
+            view.most = float(ends.y);
+        }
+    } else {
+        ImGui::SameLine();
+        ImGui::TextDisabled("%.4g to %.4g", range.least, range.most);
+    }
+    row("Curve", "Brightens as displays encode light, for radiance and albedo");
+    ImGui::Checkbox("of sRGB", &view.isCurved);
+}
+
+/// The texture in what is left of the window, and the numbers of the texel under the pointer.
+void picture(ResourceView& view, const Facts::Resource& resource) {
+    const ResourceContents& contents = *resource.contents;
+    const glm::vec2 texels(contents.sizeTexels);
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    const float rows = ImGui::GetTextLineHeightWithSpacing();
+    const float scale = std::min(room.x / texels.x, std::max(room.y - rows, rows) / texels.y);
+    const glm::vec2 size = glm::max(texels * scale, 1.0f);
+    const glm::vec2 from = view.magnification.placeAt(glm::vec2(0.0f)),
+                    to = view.magnification.placeAt(glm::vec2(1.0f));
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    // What takes the mouse, so that a drag does not move the window.
+    ImGui::InvisibleButton("##picture", {size.x, size.y});
+    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(resource.picture)), corner,
+                                         {corner.x + size.x, corner.y + size.y}, {from.x, from.y}, {to.x, to.y});
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::vec2 share = glm::vec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y) / size;
+    if (ImGui::IsItemActive()) view.magnification.pan(glm::vec2(io.MouseDelta.x, io.MouseDelta.y) / size);
+    if (!ImGui::IsItemHovered()) {
+        ImGui::TextDisabled("Point at a texel for its numbers; the wheel magnifies");
+        return;
+    }
+    if (io.MouseWheel != 0.0f) view.magnification.zoom(io.MouseWheel > 0.0f ? 1 : -1, share);
+    const glm::ivec2 texel(glm::floor(view.magnification.placeAt(share) * texels));
+    ImGui::TextUnformatted(contents.texelText(glm::clamp(texel, glm::ivec2(0), contents.sizeTexels - 1)).c_str());
+}
+
+void words(ResourceView& view, const ResourceContents& contents) {
+    ResourceView::Words as = view.words.value_or(contents.likelyWords());
+    if (chooseOne("As", as, kWords, "How the buffer's words of four bytes are read")) view.words = as;
+    constexpr int kColumns = 4;
+    const std::size_t count = contents.words.size();
+    if (!ImGui::BeginTable("##words", kColumns + 1, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
+    ImGuiListClipper clipper;
+    clipper.Begin(int((count + kColumns - 1) / kColumns));
+    while (clipper.Step())
+        for (int line = clipper.DisplayStart; line < clipper.DisplayEnd; ++line) {
+            const std::size_t first = std::size_t(line) * kColumns;
+            ImGui::TableNextColumn();
+            ImGui::TextDisabled("%zu", first);
+            for (std::size_t i = first; i < first + kColumns; ++i) {
+                ImGui::TableNextColumn();
+                if (i < count) ImGui::TextUnformatted(ResourceContents::wordText(contents.words[i], as).c_str());
+            }
+        }
+    ImGui::EndTable();
+}
+
+} // namespace
+
+void drawResource(State& state, const Facts& facts, const PictureArea& area) {
+    ResourceView& view = state.resource;
+    if (view.name.empty()) return;
+    const glm::vec2 size = 0.6f * area.size, corner = area.corner + area.size - size;
+    ImGui::SetNextWindowPos({corner.x, area.corner.y}, ImGuiCond_Appearing);
+    ImGui::SetNextWindowSize({size.x, size.y}, ImGuiCond_Appearing);
+    bool isOpen = true;
+    if (ImGui::Begin(fmt::format("{}###resource", labelOf(view.name)).c_str(), &isOpen,
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse |
+                         ImGuiWindowFlags_NoFocusOnAppearing)) {
+        const bool isRead = facts.resource && facts.resource->contents->name == view.name;
+        if (!isRead) {
+            paragraph("It is read once the picture rests.");
+        } else if (const ResourceContents& contents = *facts.resource->contents; !contents.fault.empty()) {
+            paragraph(contents.fault);
+        } else if (contents.isTexture()) {
+            const auto& desc = std::get<graph::TextureDesc>(contents.desc);
+            fact("Texture", fmt::format("{}, {}", graph::formatInfo(desc.format).name, graph::describeSize(desc)));
+            textureRows(view, desc, facts.resource->range);
+            picture(view, *facts.resource);
+        } else {
+            const bool isAll = contents.words.size() >= contents.bytes / 4;
+            fact("Buffer", fmt::format("{}{}", graph::readableBytes(contents.bytes),
+                                       isAll ? "" : fmt::format(", the first {} words", contents.words.size())));
+            words(view, contents);
+        }
+    }
+    ImGui::End();
+    if (!isOpen) view = {};
+}
+
+} // namespace tessera::viewer
