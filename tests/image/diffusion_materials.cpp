@@ -172,6 +172,24 @@ TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {
     }
 }
 
+/// What enters a surface is what its layers leave of the light, which only pixels know: its texels have none. Left out
+/// or set to nothing.
+TEST_F(DiffusionTruth, layersAreNoPartOfTheLightThatEnters) {
+    scenes::Scene scene = stepScene();
+    for (scenes::Material& material : scene.materials) {
+        material.model = scenes::MaterialModel::MetallicRoughness;
+        material.clearcoat = 0.7f;
+        material.sheenColor = glm::vec3(0.8f);
+        material.emissive = glm::vec3(0.1f);
+    }
+    engine::Renderer renderer(context(), scene);
+    frame::FrameSettings settings = squareSettings(128);
+    settings.sizePixels = {64, 8};
+    const Picture pruned = pictureOf(renderer, settings);
+    settings.prune = false;
+    EXPECT_TRUE(pictureOf(renderer, settings).rgba == pruned.rgba);
+}
+
 /// A slab of 10 mm before a sun: the same everywhere, however far light spreads. Where a Gaussian is narrower than
 /// texels, what passes stays in these, since pixels reflect light from the front alone.
 TEST_F(DiffusionTruth, lightFromBehindSpreadsOverTheSideWhereItLeaves) {
