@@ -1,5 +1,6 @@
 #include "apps/OnePicture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,6 +10,23 @@
 #include "validation/compare/ReferencePicture.h"
 
 namespace tessera::app {
+
+namespace {
+
+/// Whether every material of the scene's surfaces hides them, whatever its textures.
+bool isAllClear(const scenes::Scene& scene) {
+    const auto isClear = [&](const scenes::MeshInstance& instance) {
+        if (instance.material == scenes::kNone) return false;
+        const scenes::Material& material = scene.materials[std::size_t(instance.material)];
+        const float opacity = material.baseColor.w;
+        return (material.alphaMode == scenes::AlphaMode::Blend && opacity <= 0.0f) ||
+               (material.alphaMode == scenes::AlphaMode::Mask && opacity < material.alphaCutoff);
+    };
+    return std::ranges::all_of(scene.nodes,
+                               [&](const scenes::Node& node) { return std::ranges::all_of(node.instances, isClear); });
+}
+
+} // namespace
 
 std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span<const float> rgba,
                     const std::string& cut) {
@@ -34,8 +52,11 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
                          "and lights may be out of range, behind the surfaces or off"
                        : "";
     if (scenes::triangleCount(scene) == 0) return "the scene has no triangles to draw";
+    if (isAllClear(scene))
+        return "all surfaces of the scene are transparent: their opacity is 0, or below the cutoff of their alpha mode "
+               "mask";
     return fmt::format("the camera sees nothing of the scene; {}check --eye, --target, --near and --far; backs of "
-                       "one-sided surfaces and triangles without area do not show",
+                       "one-sided surfaces, triangles without area and what is smaller than a pixel do not show",
                        scene.supplied.camera ? "" : "give --default-camera, which sees all of it, or ");
 }
 

@@ -28,7 +28,11 @@ std::string unknownCommand(const CLI::App& app, const std::string& word) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
     const std::vector<std::string_view> candidates(names.begin(), names.end());
-    return fmt::format("unknown command '{}': {}", word, suggestNames(word, candidates));
+    const bool isFile = word.find_first_of("./") != std::string::npos;
+    return isFile ? fmt::format("'{0}' is no command; tessera render {0} -o picture.png draws a scene or model, and "
+                                "tessera view {0} opens it",
+                                word)
+                  : fmt::format("unknown command '{}': {}", word, suggestNames(word, candidates));
 }
 
 std::string unknownOption(const CLI::App& app, const CLI::App* command, const std::string& flag,
@@ -57,6 +61,16 @@ std::string lackingValue(const CLI::App& app, const CLI::App* command, const CLI
 }
 
 } // namespace
+
+std::string unknownCommandOf(const CLI::App& app, int argc, const char* const* argv) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (!word.starts_with("-")) return commandNamed(app, word) ? "" : unknownCommand(app, word);
+        const CLI::Option* option = optionNamed(app, word);
+        if (option != nullptr && option->get_type_size() > 0) ++i; // the next word is its value
+    }
+    return "";
+}
 
 std::string parseMessage(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
     const CLI::App* command = nullptr;

@@ -134,12 +134,14 @@ void refuseEmptyValues(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({})) refuseEmptyValues(*command);
 }
 
-/// The parser would take the next word for the value of "--name=".
-void refuseEmptyAssignments(const std::vector<const char*>& words) {
+/// The parser would take the next word for the value of "--name=", and "=value" for that of "-n=value".
+void refuseMisplacedEquals(const std::vector<const char*>& words) {
     for (const std::string_view word : words) {
         if (word == "--") return;
         if (word.starts_with("--") && word.find('=') == word.size() - 1)
             throw CLI::ValidationError(std::string(word.substr(0, word.size() - 1)), kEmptyValue);
+        if (word.size() > 2 && word[0] == '-' && word[1] != '-' && word[2] == '=')
+            throw CLI::ValidationError(std::string(word.substr(0, 2)), "takes its value behind a space, without '='");
     }
 }
 
@@ -168,9 +170,11 @@ int runProgram(int argc, char** argv) {
     refuseEmptyValues(app);
     const std::vector<const char*> words = withoutHelpCommand({argv, argv + argc});
     try {
-        refuseEmptyAssignments(words);
+        refuseMisplacedEquals(words);
         app.parse(int(words.size()), words.data());
     } catch (const CLI::Success& wanted) { // --help
+        if (const std::string fault = unknownCommandOf(app, int(words.size()), words.data()); !fault.empty())
+            return fail(fault, kBadInput);
         return app.exit(wanted);
     } catch (const CLI::ParseError& error) {
         return fail(parseMessage(app, error, int(words.size()), words.data()), kBadInput);

@@ -309,7 +309,7 @@ std::vector<Setting> pictureSettings() {
          .flag = "--exposure",
          .key = "exposureEV",
          .type = "EV",
-         .help = "Multiplies the display picture by 2^EV",
+         .help = "Multiplies the display picture by 2^EV; models without an exposure of their own get an estimated one",
          .group = "Display",
          .panel = SettingPanel::View,
          .sameCost = true,
@@ -324,7 +324,8 @@ std::vector<Setting> pictureSettings() {
          .flag = "--tonemap",
          .key = "toneMap",
          .type = "NAME",
-         .help = "Tone map of display pictures, one of " + namesOf(frame::toneMapTable()),
+         .help = "Tone map of display pictures, one of " + namesOf(frame::toneMapTable()) +
+                 "; lit models get khronos_neutral",
          .group = "Display",
          .panel = SettingPanel::View,
          .sameCost = true,

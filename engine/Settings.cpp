@@ -23,7 +23,7 @@ bool isDrawable(const Setting& setting, const ViewRequest& request) {
     return setting.isDefault(request) || setting.takes == nullptr || setting.takes(request);
 }
 
-/// Why the request's technique does not take the setting's requested value, and which techniques do.
+/// Why the request's technique does not support the setting's requested value, and which techniques do.
 std::string refusalOf(const Setting& setting, const ViewRequest& request) {
     std::vector<std::string_view> able;
     ViewRequest other = request;
@@ -31,7 +31,7 @@ std::string refusalOf(const Setting& setting, const ViewRequest& request) {
         other.technique = info.technique;
         if (setting.isTaken(other)) able.push_back(info.name);
     }
-    return fmt::format("technique {} does not take {} {}{}{}; {} do", infoOf(request.technique).name, setting.name,
+    return fmt::format("technique {} does not support {} {}{}{}; {} do", infoOf(request.technique).name, setting.name,
                        setting.text(request), setting.refusal.empty() ? "" : ", since ", setting.refusal,
                        fmt::join(able, ", "));
 }

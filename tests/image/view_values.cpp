@@ -232,7 +232,7 @@ TEST_F(ViewValues, storedChannelsAreNotShownWhereThereAreNone) {
         return errorText<InputError>([&] { engine::prepareView(scene, technique, settings); });
     };
     EXPECT_EQ(message(Technique::ForwardPlus, frame::Channel::Albedo),
-              "technique forward_plus does not take view gbuffer.albedo, since it has no G-buffer; deferred, "
+              "technique forward_plus does not support view gbuffer.albedo, since it has no G-buffer; deferred, "
               "deferred_volumes, tiled_deferred, clustered_deferred do");
     EXPECT_EQ(message(Technique::Deferred, frame::Channel::Sheen),
               "view gbuffer.sheen: this frame's G-buffer has no such channel, which is for scenes with cloth; it has "

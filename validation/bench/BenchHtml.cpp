@@ -123,17 +123,19 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     if (best.key.isLitByCompute()) how += ", compute";
     for (const std::string& text : methodTexts(best.key.methods)) how += ", " + text;
     if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
-    std::string html =
-        unfinished + "<dl class=\"answer\">\n" + tileHtml("Take", escapedHtml(best.key.technique), escapedHtml(how));
-    if (choice->speedup) {
-        const double speedup = *choice->speedup;
+    const bool isTaken = choice->takes(best);
+    if (!isTaken) how += fmt::format(": {}, measured times crown none", choice->caveat);
+    std::string html = unfinished + "<dl class=\"answer\">\n" +
+                       tileHtml(isTaken ? "Take" : "Ahead", escapedHtml(best.key.technique), escapedHtml(how));
+    if (isTaken && choice->speedup) {
+        const bool isSame = &best != choice->baseline && isAsFast(best.times.cpuMs, choice->baseline->times.cpuMs);
+        const double speedup = isSame ? 1.0 : *choice->speedup;
         html +=
             tileHtml("Speed", fmt::format("{:.1f}&times;", speedup >= 1.0 ? speedup : 1.0 / speedup),
                      &best == choice->baseline ? (choice->asFast ? "forward, as fast as any" : "forward is the fastest")
-                     : isAsFast(best.times.cpuMs, choice->baseline->times.cpuMs)
-                         ? "as fast as forward within the spread of the times"
-                     : speedup >= 1.0 ? "faster than forward"
-                                      : "slower than forward");
+                     : isSame                  ? "as fast as forward within the spread of the times"
+                     : speedup >= 1.0          ? "faster than forward"
+                                               : "slower than forward");
     }
     if (best.error)
         html += tileHtml("Error", figureHtml(best.error->relMse),

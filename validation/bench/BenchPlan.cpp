@@ -158,7 +158,7 @@ std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, cons
     return variants;
 }
 
-/// The points of one technique, and what it does not take, in the order of the matrix.
+/// The points of one technique, and what it does not support, in the order of the matrix.
 class TechniquePoints {
 public:
     TechniquePoints(BenchPlan& plan, PlannedGroup& group, const BenchMatrix& matrix, const scenes::Scene& scene,
@@ -193,7 +193,7 @@ private:
                 methods.push_back(method);
             else
                 skip(plan_, fmt::format("{}, {}", info_.name, infoOf(method).name),
-                     "the technique does not take this culling method");
+                     "the technique does not support this culling method");
         }
         return methods;
     }

@@ -295,8 +295,8 @@ std::vector<Technique> techniquesTaking(const frame::FrameSettings& settings, st
         if (refused == table.end())
             techniques.push_back(info.technique);
         else
-            leftOut.push_back(
-                {std::string(info.name), fmt::format("it does not take {} {}", refused->name, refused->text(request))});
+            leftOut.push_back({std::string(info.name),
+                               fmt::format("it does not support {} {}", refused->name, refused->text(request))});
     }
     return techniques;
 }

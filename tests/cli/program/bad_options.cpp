@@ -18,6 +18,8 @@ protected:
 TEST_F(BadOptions, unknownNamesAreAnsweredWithTheNearest) {
     expectError(kBadInput, {"rendr"}, {"unknown command 'rendr'", "did you mean 'render'?"});
     expectError(kBadInput, {"--context", "egl", "plann", "room"}, {"unknown command 'plann'", "did you mean 'plan'?"});
+    expectError(kBadInput, {"help", "rendr"}, {"unknown command 'rendr'", "did you mean 'render'?"});
+    expectError(kBadInput, {"model.glb"}, {"'model.glb' is no command", "tessera view model.glb opens it"});
     expectError(kBadInput, {"render", "romm", "-o", "a.png"}, {"'romm'", "did you mean 'room'?"});
     expectRefused({"--technique", "defered"}, {"unknown technique 'defered'", "did you mean 'deferred'?"});
     expectRefused({"--technique", "zzz"}, {"unknown technique 'zzz'", "forward, forward_prepass, deferred"});
@@ -53,6 +55,7 @@ TEST_F(BadOptions, unknownOptionsAndStrayWordsAreNamed) {
     expectRefused({"-o", "b.png"}, {"--output"});
     expectRefused({"--size"}, {"render: --size lacks its value: give it as --size WxH; see tessera render --help"});
     expectRefused({"--environment"}, {"--environment lacks its value: give it as --environment NAME; see"});
+    expectError(kBadInput, {"render", "room", "-o=a.png"}, {"-o: takes its value behind a space"});
     expectError(kBadInput, {"--nonsense"}, {"unknown option '--nonsense'", "tessera --help"});
     expectError(kBadInput, {"render"}, {"render: ", "required", "tessera render --help"});
     expectError(kBadInput, {"render", "room"}, {"--output is required"});
@@ -75,7 +78,7 @@ TEST_F(BadOptions, samplesThatCannotBeDrawnAreRefused) {
         expectRefused({"--samples", samples, "--technique", "forward"},
                       {std::string("--samples ") + samples, "give one of 1, 2, 4"});
     expectRefused({"--samples", "four"}, {"--samples 'four' is not a whole number"});
-    const Words parts{"technique deferred does not take samples 4", "forward, forward_prepass", "do"};
+    const Words parts{"technique deferred does not support samples 4", "forward, forward_prepass", "do"};
     expectRefused({"--samples", "4"}, parts);
     expectError(kBadInput, {"plan", "room", "--samples", "4"}, parts);
     expectError(kBadInput, {"compare", "room", "--samples", "4", "--techniques", "forward,deferred"}, parts);

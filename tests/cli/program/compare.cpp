@@ -79,23 +79,23 @@ TEST_F(Compare, everyPairReportsItsCullingAndNoneIsSilentlyChanged) {
     }
     ASSERT_EQ(record["left_out"].size(), 2u);
     EXPECT_EQ(record["left_out"][0]["technique"], "tiled_deferred");
-    EXPECT_EQ(record["left_out"][0]["why"], "it does not take culling zbin");
+    EXPECT_EQ(record["left_out"][0]["why"], "it does not support culling zbin");
     expectError(2, lattice({"--techniques", "tiled_deferred", "--culling", "zbin"}),
-                {"tiled_deferred does not take culling zbin"});
+                {"tiled_deferred does not support culling zbin"});
     expectError(2, lattice({"--view", "lights"}), {"--view lights", "render it"});
 }
 
 TEST_F(Compare, optionsOfLightListsAreRefusedWhereThereAreNone) {
     expectError(2, {"render", "room", "-o", "a.png", "--technique", "forward", "--tile", "16"},
-                {"technique forward does not take tile 16, since it has no light lists", "tiled_deferred"});
+                {"technique forward does not support tile 16, since it has no light lists", "tiled_deferred"});
     expectError(2, {"plan", "room", "--cull-on", "compute"},
-                {"technique deferred does not take cull-on compute, since it has no light lists"});
+                {"technique deferred does not support cull-on compute, since it has no light lists"});
 }
 
 TEST_F(Compare, severalSamplesLeaveOutTheTechniquesThatTakeOneAndSaySo) {
     const std::string table = runGood(lattice({"--samples", "4", "--json", "c.json"}));
     EXPECT_THAT(table, testing::HasSubstr("forward_prepass vs forward"));
-    EXPECT_THAT(table, testing::HasSubstr("left out: deferred: it does not take samples 4\n"));
+    EXPECT_THAT(table, testing::HasSubstr("left out: deferred: it does not support samples 4\n"));
     const Json record = json("c.json");
     EXPECT_GE(record["samples"], 4);
     for (const Json& pair : record["pairs"]) EXPECT_EQ(pair["bitEqual"], 1.0);

@@ -129,6 +129,8 @@ TEST_F(Render, quietSilencesWarningsAndNothingElse) {
 
 TEST_F(Render, aPictureOfNothingSaysWhy) {
     folder_.write("tri.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
+    folder_.write("clear.mtl", "newmtl air\nd 0\n");
+    folder_.write("clear.obj", "mtllib clear.mtl\nusemtl air\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");
     folder_.write("none.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{}]})");
     for (const char* technique : {"forward", "reference"}) {
         const auto said = [&](const char* scene, std::vector<std::string> more) {
@@ -142,6 +144,8 @@ TEST_F(Render, aPictureOfNothingSaysWhy) {
         EXPECT_THAT(said("tri.obj", {}), testing::Not(testing::HasSubstr("a.png: ")));
         EXPECT_THAT(said("tri.obj", {"--near", "1000", "--far", "1001"}),
                     testing::HasSubstr("warning: a.png: the camera sees nothing of the scene"));
+        EXPECT_THAT(said("clear.obj", {}),
+                    testing::HasSubstr("warning: a.png: all surfaces of the scene are transparent"));
         EXPECT_THAT(said("none.gltf", {}), testing::HasSubstr("warning: a.png: the scene has no triangles to draw"));
     }
 }

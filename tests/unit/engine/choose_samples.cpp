@@ -41,7 +41,7 @@ TEST(ChooseSamples, aTechniqueWithAGBufferIsRefusedWithTheNamesOfThoseThatCan) {
     EXPECT_THAT(faultOf([] {
                     requireTaken({Technique::Deferred, asking(2)});
                 }),
-                HasSubstr("technique deferred does not take samples 2, since it has a G-buffer; forward, "));
+                HasSubstr("technique deferred does not support samples 2, since it has a G-buffer; forward, "));
 }
 
 TEST(ChooseSamples, invalidSampleCountsAreRefused) {

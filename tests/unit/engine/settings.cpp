@@ -285,11 +285,11 @@ TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {
     ViewRequest request{Technique::Forward, {}};
     request.settings.culling.tilePixels = 32;
     EXPECT_EQ(refusal([&] { requireTaken(request); }),
-              "technique forward does not take tile 32, since it has no light lists; tiled_deferred, forward_plus, "
+              "technique forward does not support tile 32, since it has no light lists; tiled_deferred, forward_plus, "
               "clustered_deferred, clustered_forward do");
     request.settings.culling = {culling::Method::Zbin, {}, {}, {}, {}};
     EXPECT_EQ(refusal([&] { requireTaken(request); }),
-              "technique forward does not take culling zbin; clustered_deferred, clustered_forward do");
+              "technique forward does not support culling zbin; clustered_deferred, clustered_forward do");
     request.technique = Technique::ClusteredForward;
     EXPECT_EQ(refusal([&] { requireTaken(request); }), "");
 }

@@ -97,6 +97,22 @@ TEST(BenchPageHead, anUnfinishedBenchNeverRecommendsWithoutReserve) {
     EXPECT_THAT(benchTable(record), Not(HasSubstr("nfinished")));
 }
 
+TEST(BenchPageHead, tilesClaimNoMoreThanTheSentenceBelowThem) {
+    BenchRecord record;
+    record.isComplete = true;
+    const auto tiles = [&](double deferredP95) {
+        record.groups = {madeUpGroup(10, {madeUpResult("forward", 40, 1e-9), madeUpResult("deferred", 10, 1e-9)})};
+        record.groups[0].results[1].times.cpuMs.p95 = deferredP95;
+        return benchReport(record, "").bench->answer;
+    };
+    EXPECT_THAT(tiles(11.0), testing::AllOf(HasSubstr("<dt>Take</dt><dd>deferred"), HasSubstr("4.0&times;")));
+    EXPECT_THAT(tiles(21.0), testing::AllOf(HasSubstr("<dt>Ahead</dt><dd>deferred"), HasSubstr("the machine was busy"),
+                                            Not(HasSubstr("&times;<small>"))));
+    // Within each other's spread.
+    record.groups = {madeUpGroup(10, {madeUpResult("forward", 32, 1e-9), madeUpResult("deferred", 30, 1e-9)})};
+    EXPECT_THAT(benchReport(record, "").bench->answer, HasSubstr("<dd>1.0&times;<small>as fast as forward"));
+}
+
 TEST(Pareto, theFrontIsThePointsThatNoOtherDominates) {
     const BenchGroup group =
         madeUpGroup(10, {madeUpResult("a", 10, 1e-9), madeUpResult("b", 5, 1e-6), madeUpResult("c", 6, 1e-6),
