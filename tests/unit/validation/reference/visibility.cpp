@@ -48,6 +48,13 @@ protected:
     mutable int number_ = -1;
 };
 
+/// Scales of nested nodes multiply: the square of a side times a distance is no number any more.
+TEST_F(ReferenceVisibility, aTriangleTooLargeForNumbersIsNotHit) {
+    for (int axis = 0; axis < 3; ++axis) scene_.nodes.front().parentFromNode[axis] *= 1e150;
+    scene_.nodes.front().parentFromNode[3].z = -1e150;
+    EXPECT_FALSE(middle());
+}
+
 TEST_F(ReferenceVisibility, aHitIsWhereTheRayMeetsTheTriangle) {
     const std::optional<Hit> hit = middle();
     ASSERT_TRUE(hit);
