@@ -100,9 +100,9 @@ void placeThicknesses(Context& context, const Materials& materials);
 // sides with flat ends. Sizes are those of the model at rest, not of the picture that shows it.
 
 /// The width of a line, a side of its prism, as a share of the longest side of the model's bounds in the world. Of a
-/// model that spans 95 % of 720 rows these are 1.7 pixels; seen from any side a prism is 87 to 100 % as wide. The
-/// specification asks for one pixel of any picture.
-inline constexpr double kLineWidthShare = 1.0 / 400.0;
+/// model that spans 95 % of 360 rows these are 1.2 pixels, and seen from any side a prism is 87 to 100 % as wide, so
+/// that a sample a pixel meets it everywhere. The specification asks for one pixel of any picture.
+inline constexpr double kLineWidthShare = 1.0 / 280.0;
 /// From corner to opposite corner of a point, in widths of a line: a third of the distance between neighbours of a
 /// square grid of so many points, between 2 and 8, so that a cloud of few is no cloud of specks.
 double pointLineWidths(std::size_t points);

@@ -283,7 +283,7 @@ void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
     const bool hasPoints = std::ranges::any_of(thinModes, isPoints);
     const bool hasLines = !std::ranges::all_of(thinModes, isPoints);
     scene.notes.push_back(fmt::format(
-        "its {} are drawn as thin solids; lines are {:g} % of the model's longest side wide, points {:.2g} %",
+        "its {} are drawn as thin solids; lines are {:.2g} % of the model's longest side wide, points {:.2g} %",
         !hasLines   ? "points"
         : hasPoints ? "points and lines"
                     : "lines",

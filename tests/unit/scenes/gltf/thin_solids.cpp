@@ -136,7 +136,7 @@ TEST(GltfThinSolids, trianglesBesideThemAreAsWithout) {
 
 TEST(GltfThinSolids, pointsOfManyAreSmallerThanThoseOfFew) {
     EXPECT_EQ(pointLineWidths(1), 8.0);
-    EXPECT_NEAR(pointLineWidths(1000), 4.2, 0.05);
+    EXPECT_NEAR(pointLineWidths(1000), 2.95, 0.05);
     EXPECT_EQ(pointLineWidths(1'000'000), 2.0);
     std::vector<float> many;
     for (int i = 0; i < 1024; ++i) many.insert(many.end(), {float(i % 32), float(i / 32), 0.0f});
@@ -152,8 +152,8 @@ TEST(GltfThinSolids, oneLineSaysThatTheyAreDrawn) {
     }
     EXPECT_THAT(
         builder.import().notes,
-        ElementsAre("its points and lines are drawn as thin solids; lines are 0.25 % of the model's longest side "
-                    "wide, points 2 %"));
+        ElementsAre("its points and lines are drawn as thin solids; lines are 0.36 % of the model's longest side "
+                    "wide, points 2.9 %"));
     EXPECT_THAT(thin(0).import().notes, ElementsAre(HasSubstr("its points are drawn")));
     EXPECT_THAT(thin(2).import().notes, ElementsAre(HasSubstr("its lines are drawn")));
 }
