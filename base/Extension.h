@@ -2,15 +2,13 @@
 #include <filesystem>
 #include <string>
 
+#include "base/Lowercase.h"
+
 namespace tessera {
 
 /// What a file's name ends in, with its dot and in small letters: ".png" for "a.PNG". Names mean the same in any case.
 inline std::string extensionOf(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    return extension;
+    return inLowercase(file.extension().string());
 }
 
 } // namespace tessera

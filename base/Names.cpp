@@ -4,18 +4,10 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/Lowercase.h"
+
 namespace tessera {
 namespace {
-
-char lower(char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-}
-
-/// Case aside.
-bool startsWith(std::string_view text, std::string_view beginning) {
-    return text.size() >= beginning.size() &&
-           std::ranges::equal(text.substr(0, beginning.size()), beginning, {}, lower, lower);
-}
 
 /// Letters inserted, deleted, replaced or swapped with their neighbour to get from `a` to `b`, case aside.
 /// Source: Damerau 1964, "A technique for computer detection and correction of spelling errors", in the form that edits
@@ -30,10 +22,10 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
         std::swap(last, row);
         row[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+            const bool same = inLowercase(a[i - 1]) == inLowercase(b[j - 1]);
             row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0 : 1)});
-            const bool swapped =
-                i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]);
+            const bool swapped = i > 1 && j > 1 && inLowercase(a[i - 1]) == inLowercase(b[j - 2]) &&
+                                 inLowercase(a[i - 2]) == inLowercase(b[j - 1]);
             if (swapped) row[j] = std::min(row[j], beforeLast[j - 2] + 1);
         }
     }
@@ -74,7 +66,7 @@ std::vector<std::string_view> nearestNames(std::string_view name, std::span<cons
     if (nearestDistance <= 1 && !nearest.empty()) return nearest;
     std::vector<std::string_view> longer;
     for (const std::string_view candidate : candidates)
-        if (name.size() >= kShortestCut && longer.size() < kMostSuggestions && startsWith(candidate, name))
+        if (name.size() >= kShortestCut && longer.size() < kMostSuggestions && startsWithWord(candidate, name))
             longer.push_back(candidate);
     return longer.empty() ? nearest : longer;
 }

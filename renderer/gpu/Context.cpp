@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cctype>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -13,6 +12,7 @@
 #include <fmt/ranges.h>
 #include <glad/gl.h>
 
+#include "base/Lowercase.h"
 #include "renderer/gpu/ContextWays.h"
 #include "renderer/gpu/Debug.h"
 
@@ -83,12 +83,11 @@ std::vector<std::vector<glm::vec2>> commonSamplePlaces() {
     return places;
 }
 
-bool isSoftwareRenderer(std::string renderer) {
-    std::transform(renderer.begin(), renderer.end(), renderer.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
+bool isSoftwareRenderer(const std::string& name) {
+    const std::string renderer = inLowercase(name);
     constexpr std::array<std::string_view, 4> kNames{"llvmpipe", "softpipe", "swrast", "software rasterizer"};
     return std::any_of(kNames.begin(), kNames.end(),
-                       [&](std::string_view name) { return renderer.find(name) != std::string::npos; });
+                       [&](std::string_view kind) { return renderer.find(kind) != std::string::npos; });
 }
 
 void GLAD_API_PTR onDebugMessage(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,

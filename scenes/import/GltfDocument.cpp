@@ -7,6 +7,7 @@
 #include <cstring>
 #include <system_error>
 
+#include "base/Lowercase.h"
 #include "scenes/import/Files.h"
 #include "scenes/import/JsonReader.h"
 
@@ -64,12 +65,6 @@ std::vector<std::byte> base64Decoded(std::string_view text) {
     }
     if (digits % 4 == 1) throw InputError("its base64 is cut short");
     return bytes;
-}
-
-/// In any case of letters.
-bool startsWith(std::string_view text, std::string_view lowerCase) {
-    const auto lowered = [](char c) { return char(std::tolower(static_cast<unsigned char>(c))); };
-    return std::ranges::equal(text.substr(0, lowerCase.size()), lowerCase, {}, lowered);
 }
 
 /// RFC 3986: a letter, then letters, digits, '+', '-' or '.', then ':'. One letter alone is a Windows drive.
@@ -242,7 +237,7 @@ bool isSupported(std::string_view extension) {
 }
 
 bool isDataUri(std::string_view uri) {
-    return startsWith(uri, "data:");
+    return startsWithWord(uri, "data:");
 }
 
 std::vector<std::byte> decodeDataUri(std::string_view uri) {
@@ -254,7 +249,7 @@ std::vector<std::byte> decodeDataUri(std::string_view uri) {
     const std::string data = percentDecoded(uri.substr(comma + 1));
     constexpr std::string_view kBase64 = ";base64";
     if (header.size() >= kBase64.size() &&
-        startsWith(std::string_view(header).substr(header.size() - kBase64.size()), kBase64))
+        startsWithWord(std::string_view(header).substr(header.size() - kBase64.size()), kBase64))
         return base64Decoded(data);
     const auto* first = reinterpret_cast<const std::byte*>(data.data());
     return {first, first + data.size()};
@@ -262,7 +257,7 @@ std::vector<std::byte> decodeDataUri(std::string_view uri) {
 
 NamedFile fileOfUri(std::string_view uri, const std::filesystem::path& folder) {
     constexpr std::string_view kFile = "file:";
-    if (startsWith(uri, kFile)) uri.remove_prefix(kFile.size());
+    if (startsWithWord(uri, kFile)) uri.remove_prefix(kFile.size());
     if (uri.empty()) throw InputError("its uri is empty");
     if ((uri.starts_with("//") && !uri.starts_with("///")) || hasScheme(uri))
         throw InputError(

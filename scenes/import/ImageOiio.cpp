@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/Lowercase.h"
 #include "base/OneLine.h"
 #include "base/PictureLibrary.h"
 #include "scenes/import/PictureCodecs.h"
@@ -17,11 +18,6 @@ std::string reasonOf(const std::string& text) {
 TexelFormat texelFormatOf(PictureHeader::Samples samples) {
     if (samples == PictureHeader::Samples::Bits8) return TexelFormat::Rgba8Unorm;
     return samples == PictureHeader::Samples::Bits16 ? TexelFormat::Rgba16Unorm : TexelFormat::Rgba32Float;
-}
-
-bool isSameWord(std::string_view a, std::string_view b) {
-    const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; };
-    return std::ranges::equal(a, b, {}, small, small);
 }
 
 /// Which channels of a file are red, green, blue and alpha, which may be missing: -1. Beside them stand depth and the

@@ -1,13 +1,13 @@
 #include "scenes/import/ObjMaterials.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <system_error>
 #include <variant>
 
+#include "base/Lowercase.h"
 #include "scenes/Material.h"
 #include "scenes/import/Files.h"
 #include "scenes/import/ObjLines.h"
@@ -75,11 +75,6 @@ constexpr TextureOption kTextureOptions[] = {
     {"-blendu", 0}, {"-blendv", 0}, {"-cc", 0},    {"-imfchan", 0}, {"-texres", 0}, {"-colorspace", 0}, {"-type", 0},
 };
 
-bool equalsIgnoringCase(std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b,
-                              [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-
 constexpr std::string_view kStatementLeftOut = "the statement is left out";
 
 /// Reads one MTL file, in its order.
@@ -95,12 +90,12 @@ public:
 
 private:
     void readLine(const Line& line) {
-        if (equalsIgnoringCase(line.keyword, "newmtl")) {
+        if (isSameWord(line.keyword, "newmtl")) {
             beginMaterial(line);
             return;
         }
-        const auto keyword = std::ranges::find_if(
-            kKeywords, [&](const Keyword& known) { return equalsIgnoringCase(known.name, line.keyword); });
+        const auto keyword =
+            std::ranges::find_if(kKeywords, [&](const Keyword& known) { return isSameWord(known.name, line.keyword); });
         const bool isKnown = keyword != std::end(kKeywords);
         if (isKnown && std::holds_alternative<WithoutEffect>(keyword->value)) return;
         if (materials_.empty())
