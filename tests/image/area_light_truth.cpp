@@ -271,6 +271,23 @@ TEST_F(AreaLightTruth, aTwoSidedLightThatStandsThroughASurfaceFillsHalfOfWhatIts
 }
 
 /// By the window of the distance to the middle, (1 - (d / range)^4)^2, as places are.
+/// Of a body that light wraps around, also from behind its surface.
+TEST_F(AreaLightTruth, aSmallLightWrapsAsAPointLightDoes) {
+    scenes::Material body = matte();
+    body.subsurface.method = scenes::SubsurfaceMethod::Wrap;
+    body.subsurface.wrap = 0.8f;
+    body.subsurface.bodyRadiusMetres = 1.0f;
+    const auto ratioAt = [&](double cosine) {
+        const glm::dvec3 positionWS = 2.0 * atCosine(cosine);
+        scenes::Light small = areaLight(LightType::Sphere, positionWS, -positionWS, 1000.0f);
+        small.radiusMetres = 0.01f;
+        const double ofPoint = seen(body, {pointLight(positionWS, 1.0f)});
+        EXPECT_GT(ofPoint, 0.0);
+        return seen(body, {small}) / ofPoint;
+    };
+    EXPECT_NEAR(ratioAt(-0.3) / ratioAt(0.5), 1.0, 1e-3);
+}
+
 TEST_F(AreaLightTruth, aRangeDimsALightByTheWindowOfItsDistance) {
     for (const LightType type : kAreaTypes)
         for (const double share : {0.3, 0.7, 0.95, 1.0}) {

@@ -41,5 +41,24 @@ TEST(ReferenceLightPictures, halfOfAPictureIsHalfOfTheRectangle) {
     EXPECT_EQ(surface.factorAt(glm::normalize(glm::dvec3(0.3, 0.4, 1.0))), glm::dvec3(0.0));
 }
 
+/// A triangle in its square, whose picture is bright outside of one side after the other.
+TEST(ReferenceLightPictures, theMeanOfAPolygonsPictureIsOfItsInsideAlone) {
+    constexpr int kTexels = 128;
+    constexpr double kMargin = 4.0 / kTexels;
+    scenes::Light light;
+    light.type = LightType::Polygon;
+    light.corners = test::cornersOf({{-0.8f, -0.6f}, {0.8f, -0.6f}, {0.0f, 1.0f}}); // 1 m from the middle at most
+    const std::array<glm::dvec2, 3> corners{glm::dvec2(-0.8, -0.6), glm::dvec2(0.8, -0.6), glm::dvec2(0.0, 1.0)};
+    for (std::size_t side = 0; side < 3; ++side) {
+        const glm::dvec2 from = corners[side], along = glm::normalize(corners[(side + 1) % 3] - from);
+        light.texture = test::lightTexture(kTexels, kTexels, [&](int x, int y) {
+            const glm::dvec2 metres(2.0 * (x + 0.5) / kTexels - 1.0, 1.0 - 2.0 * (y + 0.5) / kTexels);
+            const double inside = along.x * (metres.y - from.y) - along.y * (metres.x - from.x);
+            return glm::vec3(inside < -kMargin ? 100.0f : 1.0f);
+        });
+        EXPECT_NEAR(meanFactor(light).g, 1.0, 1e-9) << "side " << side;
+    }
+}
+
 } // namespace
 } // namespace tessera::reference

@@ -310,6 +310,9 @@ TEST(ReferenceReflectance, lightIsBentBySnellsLawAndNotBeyondTheCriticalAngle) {
         ASSERT_LE(glm::length(off), 1e-12) << i;
     }
     EXPECT_GT(total, 100);
+    SurfacePoint ahead;
+    ahead.normal = {0.0, 0.0, 1.0};
+    EXPECT_EQ(refracted(ahead, ahead.normal, 1.5), -ahead.normal) << "straight on";
 }
 
 TEST(ReferenceReflectance, anIndexOf0BendsLightOntoTheNormalAsOneWithoutBound) {
