@@ -80,6 +80,10 @@ void Buffer::uploadBytes(std::span<const std::byte> source, std::size_t offsetBy
         glNamedBufferSubData(id_.value(), GLintptr(offsetBytes), GLsizeiptr(source.size()), source.data());
 }
 
+void Buffer::clear() const {
+    glClearNamedBufferData(id_.value(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
 void Buffer::download(std::span<std::byte> target, std::size_t offsetBytes) const {
     assert(offsetBytes + target.size() <= bytes_ && "download beyond the buffer's end");
     if (!target.empty())

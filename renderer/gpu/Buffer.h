@@ -47,6 +47,9 @@ public:
     }
     void uploadBytes(std::span<const std::byte> source, std::size_t offsetBytes = 0) const;
 
+    /// Makes all of it 0.
+    void clear() const;
+
     /// Reads `target.size()` bytes from `offsetBytes`; waits for the GPU. Storage writes need a TransferOrUpdate
     /// barrier first.
     void download(std::span<std::byte> target, std::size_t offsetBytes = 0) const;

@@ -50,7 +50,10 @@ void GraphBackend::allocate(std::span<const graph::ResourceDesc> allocations) {
         pooled->taken = false;
         if (countsIdleFrames_) ++pooled->idleFrames;
     }
-    for (const graph::ResourceDesc& desc : allocations) physical_.push_back(&take(desc));
+    for (const graph::ResourceDesc& desc : allocations) {
+        physical_.push_back(&take(desc));
+        if (clearsAllocations_) std::visit([](const auto& resource) { resource->clear(); }, physical_.back()->resource);
+    }
     const auto dropped = std::erase_if(
         pool_, [this](const auto& pooled) { return !pooled->taken && pooled->idleFrames > mostIdleFrames_; });
     if (dropped > 0) framebuffers_.collect();

@@ -44,6 +44,10 @@ public:
     /// Off: frames from now on are not counted as idle ones of what they do not use.
     void setCountsIdleFrames(bool on) { countsIdleFrames_ = on; }
 
+    /// On: every allocation of a frame begins as zeros, so that what passes leave unwritten is told from what an
+    /// earlier frame left there.
+    void setClearsAllocations(bool on) { clearsAllocations_ = on; }
+
     /// Begins a frame: the contents of the previous frame's allocations may be overwritten from now on.
     void allocate(std::span<const graph::ResourceDesc> allocations) override;
     const Texture& texture(int physical) override;
@@ -105,6 +109,7 @@ private:
     std::map<std::string, int, std::less<>> runsOfName_;
     int mostIdleFrames_ = 3; ///< two or three techniques that alternate in a viewer keep theirs
     bool countsIdleFrames_ = true;
+    bool clearsAllocations_ = false;
     bool profiling_ = false;
     bool isSoftware_ = false;
     std::unique_ptr<DebugGroup> group_; ///< of the open pass

@@ -112,6 +112,12 @@ void Texture::upload(int level, std::span<const std::byte> texels, int layer) co
     throwIfAllocationFailed(describe(label_, desc_), levelBytes(level));
 }
 
+void Texture::clear() const {
+    const GlFormat& format = glFormat(desc_.format);
+    for (int level = 0; level < desc_.levels; ++level)
+        glClearTexImage(id_.value(), level, format.transferFormat, format.transferType, nullptr);
+}
+
 void Texture::generateMips() const {
     glGenerateTextureMipmap(id_.value());
     throwIfAllocationFailed(describe(label_, desc_), levelBytes(0));

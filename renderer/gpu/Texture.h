@@ -35,6 +35,8 @@ public:
                                                                                   int layer = 0) const {
         upload(level, std::as_bytes(std::span(std::ranges::data(texels), std::ranges::size(texels))), layer);
     }
+    /// Makes all of it 0.
+    void clear() const;
     /// Fills levels 1.. from level 0 by the driver's box filter.
     void generateMips() const;
 

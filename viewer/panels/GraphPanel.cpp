@@ -22,7 +22,10 @@ void passes(State&, const graph::Plan& plan) {
 void resourceRows(State& state, const graph::Plan::Resource& resource) {
     const bool isShown = state.resource.name == resource.name;
     ImGui::Bullet();
-    if (ImGui::Selectable(labelOf(resource.name).c_str(), isShown)) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark)); // as a link
+    const bool isClicked = ImGui::Selectable(labelOf(resource.name).c_str(), isShown);
+    ImGui::PopStyleColor();
+    if (isClicked) {
         state.resource.show(isShown ? std::string() : resource.name);
         // Light, of many magnitudes.
         state.resource.isCurved = resource.format == "RGBA32F" || resource.format == "RGBA16F";
@@ -75,8 +78,8 @@ void part(const char* title, bool open, State& state, const graph::Plan& plan,
 void graphPanel(State& state, const Facts& facts) {
     state.wantsPlan = true;
     if (!facts.plan) return;
-    part("Passes", true, state, *facts.plan, passes);
-    part("Resources", false, state, *facts.plan, resources);
+    part("Resources", true, state, *facts.plan, resources);
+    part("Passes", false, state, *facts.plan, passes);
     part("Left out, and why", true, state, *facts.plan, leftOut);
     part("Choices", false, state, *facts.plan, choices);
 }

@@ -46,7 +46,7 @@ void textureRows(ResourceView& view, const graph::TextureDesc& desc, const Numbe
     }
     if (!view.fitsRange) {
         glm::dvec3 ends(view.least, view.most, 0.0);
-        ImGui::SameLine();
+        row("Black, white", "The numbers themselves");
         const double speed = std::max(range.most - range.least, 1e-6) / 200.0;
         if (dragNumbers("##range", ends, 2, float(speed), -1e9, 1e9, "%.4g")) {
             view.least = float(ends.x);
@@ -64,27 +64,37 @@ void textureRows(ResourceView& view, const graph::TextureDesc& desc, const Numbe
 void picture(ResourceView& view, const Facts::Resource& resource) {
     const ResourceContents& contents = *resource.contents;
     const glm::vec2 texels(contents.sizeTexels);
-    const ImVec2 room = ImGui::GetContentRegionAvail();
-    const float rows = ImGui::GetTextLineHeightWithSpacing();
-    const float scale = std::min(room.x / texels.x, std::max(room.y - rows, rows) / texels.y);
-    const glm::vec2 size = glm::max(texels * scale, 1.0f);
-    const glm::vec2 from = view.magnification.placeAt(glm::vec2(0.0f)),
-                    to = view.magnification.placeAt(glm::vec2(1.0f));
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 room = ImGui::GetContentRegionAvail(), at = ImGui::GetCursorScreenPos();
+    const float line = ImGui::GetTextLineHeightWithSpacing();
+    const glm::vec2 corner(at.x, at.y), size(std::max(room.x, line), std::max(room.y - line, line));
+    // The texture lies in the middle of a place of the frame's shape, which is what is magnified.
+    const glm::vec2 part = texels * std::min(size.x / texels.x, size.y / texels.y) / size, rim = 0.5f * (1.0f - part);
+    const auto screenOf = [&](const glm::vec2& share) {
+        const glm::vec2 place = corner + size * view.magnification.shareOf(rim + part * share);
+        return ImVec2(place.x, place.y);
+    };
     // What takes the mouse, so that a drag does not move the window.
     ImGui::InvisibleButton("##picture", {size.x, size.y});
-    ImGui::GetWindowDrawList()->AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(resource.picture)), corner,
-                                         {corner.x + size.x, corner.y + size.y}, {from.x, from.y}, {to.x, to.y});
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
+    list.AddImage(reinterpret_cast<ImTextureID>(std::uintptr_t(resource.picture)), screenOf({0.0f, 0.0f}),
+                  screenOf({1.0f, 1.0f}));
     const ImGuiIO& io = ImGui::GetIO();
-    const glm::vec2 share = glm::vec2(io.MousePos.x - corner.x, io.MousePos.y - corner.y) / size;
+    const glm::vec2 share = (glm::vec2(io.MousePos.x, io.MousePos.y) - corner) / size;
     if (ImGui::IsItemActive()) view.magnification.pan(glm::vec2(io.MouseDelta.x, io.MouseDelta.y) / size);
-    if (!ImGui::IsItemHovered()) {
-        ImGui::TextDisabled("Point at a texel for its numbers; the wheel magnifies");
-        return;
-    }
-    if (io.MouseWheel != 0.0f) view.magnification.zoom(io.MouseWheel > 0.0f ? 1 : -1, share);
-    const glm::ivec2 texel(glm::floor(view.magnification.placeAt(share) * texels));
-    ImGui::TextUnformatted(contents.texelText(glm::clamp(texel, glm::ivec2(0), contents.sizeTexels - 1)).c_str());
+    const glm::ivec2 texel(glm::floor((view.magnification.placeAt(share) - rim) / part * texels));
+    const bool isOver = ImGui::IsItemHovered() && glm::all(glm::greaterThanEqual(texel, glm::ivec2(0))) &&
+                        glm::all(glm::lessThan(texel, contents.sizeTexels));
+    const ImVec2 from = screenOf(glm::vec2(texel) / texels), to = screenOf(glm::vec2(texel + 1) / texels);
+    constexpr float kSeenPoints = 4.0f; // a smaller one has no outline
+    if (isOver && to.x - from.x >= kSeenPoints) list.AddRect(from, to, ImGui::GetColorU32(ImGuiCol_CheckMark));
+    list.PopClipRect();
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) view.magnification.zoom(io.MouseWheel > 0.0f ? 1 : -1, share);
+    const std::string zoom = view.magnification.isOn() ? fmt::format("x {}  ", view.magnification.times) : "";
+    if (isOver)
+        ImGui::TextUnformatted((zoom + contents.texelText(texel)).c_str());
+    else
+        ImGui::TextDisabled("%sPoint at a texel; the wheel magnifies", zoom.c_str());
 }
 
 void words(ResourceView& view, const ResourceContents& contents) {

@@ -77,7 +77,8 @@ NumberRange rangeOf(const ResourceContents& contents, ResourceView::Channels cha
     numbers.reserve(contents.texels.size() * std::size_t(end - first));
     for (std::size_t texel = 0; texel < contents.texels.size(); ++texel)
         for (int component = first; component < end; ++component)
-            if (const double number = contents.number(texel, component); std::isfinite(number))
+            if (const double number = contents.number(texel, component);
+                std::isfinite(number) && !(formatOf(contents).depth && number == 0.0))
                 numbers.push_back(number);
     if (numbers.empty()) return {};
     constexpr double kInRange = 0.995; // the brightest highlights would leave the rest black

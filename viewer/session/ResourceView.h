@@ -57,7 +57,7 @@ struct ResourceContents {
 };
 
 /// From the least finite number in the channels that are shown to one that 99.5 % of them do not exceed; 0 to 1 where
-/// there is none.
+/// there is none. Depths of 0, where nothing is drawn, do not count.
 struct NumberRange {
     double least = 0.0, most = 1.0;
 };

@@ -232,10 +232,11 @@ void selectLights(State& state, std::span<const int> lights, bool isBeside) {
 
 void selectAllLights(State& state) {
     if (!state.open || state.open->scene().lights.empty()) return;
-    const int last = int(state.open->scene().lights.size()) - 1;
-    if (!hasSelected(state)) state.selectedLight = last;
-    state.selectedLights.clear();
-    for (int light = 0; light <= last; ++light) state.selectedLights.insert(state.selectedLights.end(), light);
+    // Those that a search finds, where one is typed.
+    const std::vector<int> all = lightsIn(listedLights(state.open->scene().lights, state.listing));
+    state.selectedLights = {all.begin(), all.end()};
+    if (!state.selectedLights.contains(state.selectedLight))
+        state.selectedLight = all.empty() ? scenes::kNone : *state.selectedLights.rbegin();
 }
 
 void replaceByScattered(State& state) {

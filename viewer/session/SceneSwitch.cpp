@@ -99,6 +99,9 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     // From here on nothing fails.
     if (hadScene_) rememberLook(preferences_, state_.looks[0], base_);
     for (Look& look : state_.looks) look = hadScene_ ? rebased(look, base_, first.look) : first.look;
+    // Another scene begins at its own time.
+    if (!state_.open || identityOf(state_.open->source()) != identityOf(scene->source()))
+        for (Look& look : state_.looks) look.settings.timeSeconds = first.look.settings.timeSeconds;
     state_.viewEnvironmentBy(scene->environmentView()); // turning the one before was an edit of that scene
     // The other side of a comparison begins with a technique that shades the other way, and is as fast with many
     // lights.

@@ -13,13 +13,17 @@ namespace {
 
 constexpr std::size_t kMostWords = std::size_t(1) << 22; ///< that are read of a buffer
 
-/// Has frames keep a resource while one lives.
+/// Has frames keep a resource while one lives, over zeros where no pass writes.
 class KeptInFrames {
 public:
     KeptInFrames(engine::Renderer& renderer, const std::string& name) : renderer_(renderer) {
         renderer_.keepResource(name);
+        renderer_.backend().setClearsAllocations(true);
     }
-    ~KeptInFrames() { renderer_.keepResource({}); }
+    ~KeptInFrames() {
+        renderer_.keepResource({});
+        renderer_.backend().setClearsAllocations(false);
+    }
     KeptInFrames(const KeptInFrames&) = delete;
     KeptInFrames& operator=(const KeptInFrames&) = delete;
 
@@ -59,12 +63,13 @@ void readTexture(const gpu::Texture& texture, int level, int layer, ResourceCont
 bool ResourceCapture::update(Facts& facts, const State& state, Screen& screen, const Screen::Wanted& wanted,
                              bool isAtRest, const std::function<bool()>& givesUp) {
     awaitsRest_ = false;
+    retired_.reset();
     const ResourceView& view = state.resource;
     if (!state.open || view.name.empty()) {
         read_.reset();
         shown_.reset();
         contents_.reset();
-        picture_.reset();
+        retired_ = std::move(picture_);
         return std::exchange(facts.resource, std::nullopt).has_value();
     }
     const Source source{view.name, view.level, view.layer, std::min(state.activeSide, wanted.sides - 1), wanted};
@@ -96,7 +101,7 @@ bool ResourceCapture::read(Screen& screen, const Source& source, const std::func
     contents->name = source.name;
     const std::optional<engine::KeptResource> resource = renderer.keptResource();
     if (!resource) {
-        contents->fault = "This frame does not use it: earlier frames have left what it would compute.";
+        contents->fault = "The frame has no resource of this name, or keeps what an earlier frame computed.";
     } else if (resource->texture != nullptr) {
         const graph::TextureDesc& desc = resource->texture->desc();
         readTexture(*resource->texture, std::min(source.level, desc.levels - 1),
@@ -119,7 +124,10 @@ void ResourceCapture::show(Facts& facts, const ResourceView& view) {
     NumberRange range = rangeOf(*contents_, view.channels);
     if (!view.fitsRange) range = {double(view.least), double(view.most)};
     const graph::TextureDesc desc{graph::Format::Rgba8Unorm, contents_->sizeTexels.x, contents_->sizeTexels.y};
-    if (!picture_ || picture_->desc() != desc) picture_ = std::make_unique<gpu::Texture>("shown resource", desc);
+    if (!picture_ || picture_->desc() != desc) {
+        retired_ = std::move(picture_);
+        picture_ = std::make_unique<gpu::Texture>("shown resource", desc);
+    }
     picture_->upload(0, colorsOf(*contents_, view.channels, range, view.isCurved));
     facts.resource->picture = picture_->id();
     facts.resource->range = range;

@@ -47,6 +47,7 @@ private:
     std::optional<Shown> shown_; ///< of what was read
     std::shared_ptr<ResourceContents> contents_;
     std::unique_ptr<gpu::Texture> picture_;
+    std::unique_ptr<gpu::Texture> retired_; ///< that the interface of this frame, laid out already, still shows
     bool awaitsRest_ = false;
 };
 

@@ -199,7 +199,7 @@ bool Screen::knowsLights(const Wanted& wanted) const {
 bool Screen::canDiffer() const {
     const Target* const a = pictures_[0].radiance();
     const Target* const b = pictures_[1].radiance();
-    return a != nullptr && b != nullptr && a->sizePixels() == b->sizePixels();
+    return a != nullptr && b != nullptr && a->sizePixels() == b->sizePixels() && isOfOneScene();
 }
 
 Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool keepsLights,
@@ -265,9 +265,11 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
     if (result.isOfSide[0] && result.isOfSide[1]) std::swap(waiting_, pictures_[0]);
     result.lacksLight = mayLack || isLacking;
     for (int side = 0; side < wanted.sides; ++side)
-        if (result.isOfSide[std::size_t(side)])
+        if (result.isOfSide[std::size_t(side)]) {
+            shownScene_[std::size_t(side)] = wanted.sceneRevision;
             made_[std::size_t(side)] = {wanted.looks[std::size_t(side)], wanted.sceneRevision, wanted.sceneEdits, scale,
                                         result.lacksLight};
+        }
     if (isAnew && !isCoarse) tellSpreadLight(wanted);
     kind_ = wanted.looks;
     const std::set<std::string>& programsDrawn = programsOf(wanted);
@@ -356,7 +358,7 @@ void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare c
         gpu::setScissor({area.x + left, area.y, right - left, area.height});
         gpu::blitToWindow(from.framebuffer(), {0, 0, size.x, size.y}, whole, isScaled);
     };
-    if (compare == Compare::Split && pictures_[1].isThere()) {
+    if (compare == Compare::Split && isOfOneScene()) {
         const int middle = std::clamp(int(std::lround(divider * float(area.width))), 0, area.width);
         blit(pictures_[0].display(), 0, middle);
         blit(pictures_[1].display(), middle, area.width);

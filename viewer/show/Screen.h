@@ -187,6 +187,8 @@ private:
     std::set<std::string> known_;              ///< programs of the pictures that were drawn of this scene
     std::optional<std::array<Look, 2>> kind_;  ///< of the pictures drawn last of this scene
     std::array<std::optional<Made>, 2> made_;
+    std::array<std::uint64_t, 2> shownScene_{}; ///< by side: Wanted::sceneRevision of its picture
+    bool isOfOneScene() const { return pictures_[1].isThere() && shownScene_[0] == shownScene_[1]; }
     std::optional<Wanted> failed_;
     Smoothing smoothing_;
     std::optional<Wanted> smoothed_; ///< what it is of

@@ -144,6 +144,9 @@ TEST_F(LightRows, ofManyLightsTheListHasGroupsWhichUnfoldForALightThatIsSelected
     EXPECT_TRUE(has("lamp 5"));
     EXPECT_FALSE(has("lamp (9)"));
     selectAllLights(state);
+    EXPECT_EQ(state.allSelectedLights(), std::set<int>{5}) << "those that the search finds";
+    state.listing.search.clear();
+    selectAllLights(state);
     EXPECT_TRUE(has("Edits apply to all 9 selected lights."));
 }
 

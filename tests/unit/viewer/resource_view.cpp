@@ -71,6 +71,13 @@ TEST(ResourceView, colorsSpanTheRangeOfTheShownChannel) {
     EXPECT_EQ(rangeOf(rowOf(graph::Format::R32Float, {{bits(nan), 0, 0, 0}}), Channels::All).most, 1.0);
 }
 
+TEST(ResourceView, theRangeOfDepthsIsOfWhatIsDrawn) {
+    const ResourceContents depths =
+        rowOf(graph::Format::Depth32Float, {{bits(0.0f), 0, 0, 0}, {bits(0.25f), 0, 0, 0}, {bits(0.5f), 0, 0, 0}});
+    EXPECT_EQ(rangeOf(depths, Channels::All).least, 0.25);
+    EXPECT_EQ(rangeOf(depths, Channels::All).most, 0.5);
+}
+
 class ResourceBox : public test::PanelTest {
 protected:
     std::string shown(State& state, const ResourceContents& contents) {

@@ -118,6 +118,15 @@ TEST_F(SceneSwitchTest, aMissingFirstFileNeverPlacesTheCameraOfTheNext) {
     EXPECT_EQ(state_.open->cameraChange(), scenes::CameraChange());
 }
 
+TEST_F(SceneSwitchTest, anotherSceneBeginsAtItsOwnTimeAndTheSameOneGoesOn) {
+    ASSERT_TRUE(open("room"));
+    for (Look& look : state_.looks) look.settings.timeSeconds = 3.7;
+    ASSERT_TRUE(open("room"));
+    EXPECT_EQ(state_.looks[0].settings.timeSeconds, 3.7);
+    ASSERT_TRUE(open("lattice"));
+    for (const Look& look : state_.looks) EXPECT_EQ(look.settings.timeSeconds, 0.0);
+}
+
 TEST_F(SceneSwitchTest, aSceneShowsTheCameraAndThePoseThatItWasLeftWith) {
     const std::string a = sceneFile("a.json"), b = sceneFile("b.json");
     saidPose_.fovYDegrees = 20.0;
