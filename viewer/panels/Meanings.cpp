@@ -151,6 +151,10 @@ constexpr Meaning kMeanings[] = {
     {"Memory", "Memory of what is kept for shadows"},
     {"Maps", "Shadow maps of the latest frame"},
     {"Atlas", "The texture that holds all shadow maps"},
+    // Resources of the graph
+    {"Buffer", "Bytes that the frame's buffer holds"},
+    {"Black, white", "The numbers that are shown black and white"},
+    {"Curve", "Brightens as displays encode light, for radiance and albedo"},
 };
 
 } // namespace

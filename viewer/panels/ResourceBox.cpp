@@ -46,7 +46,7 @@ void textureRows(ResourceView& view, const graph::TextureDesc& desc, const Numbe
     }
     if (!view.fitsRange) {
         glm::dvec3 ends(view.least, view.most, 0.0);
-        row("Black, white", "The numbers themselves");
+        row("Black, white");
         const double speed = std::max(range.most - range.least, 1e-6) / 200.0;
         if (dragNumbers("##range", ends, 2, float(speed), -1e9, 1e9, "%.4g")) {
             view.least = float(ends.x);
@@ -56,7 +56,7 @@ void textureRows(ResourceView& view, const graph::TextureDesc& desc, const Numbe
         ImGui::SameLine();
         ImGui::TextDisabled("%.4g to %.4g", range.least, range.most);
     }
-    row("Curve", "Brightens as displays encode light, for radiance and albedo");
+    row("Curve");
     ImGui::Checkbox("of sRGB", &view.isCurved);
 }
 
