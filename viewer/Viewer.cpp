@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,6 +28,7 @@
 #include "viewer/show/MaterialOutline.h"
 #include "viewer/show/Measurements.h"
 #include "viewer/show/PictureDrawing.h"
+#include "viewer/show/ReloadShaders.h"
 #include "viewer/show/ResourceCapture.h"
 #include "viewer/show/SceneThumbnails.h"
 #include "viewer/window/Gui.h"
@@ -170,29 +170,7 @@ private:
 
     void reloadShaders(bool isAsked) {
         if (!screen_.renderer()) return;
-        const shader::Reloading done = screen_.renderer()->programs().reload();
-        std::map<std::string, std::vector<std::string>> programs; // by the fault that they share
-        for (const shader::ShaderFault& fault : done.faults) {
-            std::vector<std::string>& having = programs[fault.text];
-            if (!fault.program.empty()) having.push_back(fault.program);
-        }
-        const bool hadFaults = !state_.shaderFaults.empty();
-        state_.shaderFaults.clear();
-        for (auto& [text, having] : programs) {
-            log_.line("shader error " + text);
-            state_.shaderFaults.push_back({text, std::move(having)});
-        }
-        if (programs.empty()) {
-            log_.line("shaders reloaded");
-            if (done.programs > 0)
-                state_.notice = {fmt::format("Shaders reloaded: {} program{} compiled", done.programs,
-                                             done.programs == 1 ? "" : "s"),
-                                 false};
-            else if (hadFaults)
-                state_.notice = {"Shaders reloaded: their errors are gone", false};
-            else if (isAsked)
-                state_.notice = {"Shaders reloaded: nothing has changed in them", false};
-        }
+        viewer::reloadShaders(screen_.renderer()->programs(), state_, log_, isAsked);
         screen_.forget();
         outline_.forget();
         capture_.forget();
@@ -274,13 +252,10 @@ private:
             if (facts_.resource) log_.line("captured " + facts_.resource->contents->text());
         });
         attempt([&] {
-            if (outline_.update(facts_, state_, screen_, drawing_.wanted().looks[0], isAtRest, givesUp)) {
-                pulse_.another();
-                if (facts_.materialOutline) {
-                    const auto material = std::size_t(facts_.materialOutline->material);
-                    log_.line("outlined " + state_.open->scene().materials[material].name);
-                }
-            }
+            if (!outline_.update(facts_, state_, screen_, drawing_.wanted().looks[0], isAtRest, givesUp)) return;
+            pulse_.another();
+            if (const auto& found = facts_.materialOutline)
+                log_.line("outlined " + state_.open->scene().materials[std::size_t(found->material)].name);
         });
         show();
         drawing_.setDescribed(!drew);

@@ -44,8 +44,8 @@ public:
     /// Off: frames from now on are not counted as idle ones of what they do not use.
     void setCountsIdleFrames(bool on) { countsIdleFrames_ = on; }
 
-    /// On: every allocation of a frame begins as zeros, so that what passes leave unwritten is told from what an
-    /// earlier frame left there.
+    /// On: every allocation of a frame begins as zeros, so that what passes leave unwritten is not an earlier
+    /// frame's.
     void setClearsAllocations(bool on) { clearsAllocations_ = on; }
 
     /// Begins a frame: the contents of the previous frame's allocations may be overwritten from now on.

@@ -56,7 +56,7 @@ struct Plan {
 };
 inline constexpr int kPlanSchema = 1;
 
-/// By resource of the graph, its name in plans: resources of the same name are told apart by a number, "blur", "blur
+/// By resource of the graph, its name in plans: resources of the same name get a number, "blur", "blur
 /// (2)".
 std::vector<std::string> resourceNames(const Graph& graph);
 

@@ -153,8 +153,7 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
     scenes::Light tube = areaLight(LightType::Tube, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, 1.0f);
     tube.lengthMetres = 2e4f;
     expect(tube, 0.3, "tube", 1e-4);
-    // One of a few lengths, of which no closed form is at hand: as the reference integrates it. Heights beyond a right
-    // angle from its farther end are found by the other of two formulas.
+    // A short one, for lack of a closed form against the reference: two formulas find heights on it.
     tube.positionWS.z = 0.5;
     tube.lengthMetres = 4.0f;
     const SampledMean ofLength = seen(scene, renderer, tube, 64);
