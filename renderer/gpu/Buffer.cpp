@@ -36,10 +36,7 @@ Buffer::Buffer(std::size_t bytes, std::string label)
 // What is thrown from here on finds a made object, whose destructor deletes the buffer.
 Buffer::Buffer(std::string label, std::size_t bytes, BufferUse use) : Buffer(bytes, std::move(label)) {
     make(nullptr, use);
-    const std::uint8_t zero = 0;
-    glClearNamedBufferData(id_.value(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &zero);
-    // NVIDIA 580 lets a glNamedBufferSubData of more than 64 KiB overtake the clear, which then erases what it wrote.
-    glFinish();
+    clear();
     throwIfAllocationFailed(fmt::format("buffer '{}'", label_), bytes_);
 }
 
@@ -81,7 +78,10 @@ void Buffer::uploadBytes(std::span<const std::byte> source, std::size_t offsetBy
 }
 
 void Buffer::clear() const {
-    glClearNamedBufferData(id_.value(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+    const std::uint8_t zero = 0;
+    glClearNamedBufferData(id_.value(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &zero); // of any number of bytes
+    // NVIDIA 580 lets a glNamedBufferSubData of more than 64 KiB overtake the clear, which then erases what it wrote.
+    glFinish();
 }
 
 void Buffer::download(std::span<std::byte> target, std::size_t offsetBytes) const {

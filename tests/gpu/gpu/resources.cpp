@@ -44,6 +44,24 @@ TEST_F(BufferTest, aNewBufferIsZeroAndNeverEmpty) {
     for (int i = 0; i < 64; ++i) EXPECT_THAT(make(i).downloadAs<std::uint32_t>(64), Each(0u));
 }
 
+TEST_F(BufferTest, anyNumberOfBytesIsCleared) {
+    const Buffer odd = Buffer::of("odd", std::vector<std::uint8_t>{1, 2, 3, 4, 5});
+    odd.clear();
+    EXPECT_THAT(odd.downloadAs<std::uint8_t>(5), Each(0));
+}
+
+TEST_F(TextureTest, everyLevelOfEveryFormatIsCleared) {
+    for (int i = 0; i < int(graph::Format::Count); ++i) {
+        const graph::FormatInfo& info = graph::formatInfo(graph::Format(i));
+        SCOPED_TRACE(info.name);
+        const Texture texture("cleared", {.format = info.format, .width = 4, .height = 2, .levels = 2});
+        for (int level = 0; level < 2; ++level)
+            texture.upload(level, std::vector<std::byte>(texture.levelBytes(level), std::byte(1)));
+        texture.clear();
+        for (int level = 0; level < 2; ++level) EXPECT_THAT(texture.downloadBytes(level), Each(std::byte(0)));
+    }
+}
+
 TEST_F(BufferTest, aMovedBufferIsTheSameOne) {
     Buffer first = Buffer::of("a", std::vector<int>{1, 2});
     Buffer second = Buffer::of("b", std::vector<int>{3, 4});
