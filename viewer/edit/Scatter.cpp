@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <random>
 
 #include <fmt/format.h>
@@ -22,17 +23,15 @@ constexpr double kLeastSquare = 0.4;
 constexpr double kMostSquare = 1.6;
 /// A light of height h reaches a disc of radius sqrt(range^2 - h^2): its mean share of the disc of the range.
 constexpr double kReachedShare = 1.0 - (kLowest * kLowest + kLowest * kHighest + kHighest * kHighest) / 3.0;
-/// Mean over the disc of the range of cos / d^2 times the falloff's window, for the mean height h and in units of the
-/// range: 2 h times the integral of (1 - d^4)^2 / d^2 from h to 1, without the term of h^8.
-constexpr double kMeanHeight = 0.5 * (kLowest + kHighest);
-constexpr double kMeanIrradiance =
-    2.0 - 64.0 / 21.0 * kMeanHeight + 4.0 / 3.0 * kMeanHeight * kMeanHeight * kMeanHeight * kMeanHeight;
 /// As a fraction of the distance to the surface above, so that lamps stay below a ceiling.
 constexpr double kClearShare = 0.8;
 /// Of the scene's size: in gaps narrower than that are no lamps.
 constexpr double kLeastClearShare = 0.01;
-constexpr double kLeastUp = 0.5; ///< 60 degrees from level: a steep roof still faces up
-constexpr int kMostTries = 16;   ///< for each light
+constexpr double kLeastUp = 0.5;   ///< 60 degrees from level: a steep roof still faces up
+constexpr int kMostTries = 16;     ///< for each light
+constexpr int kMeasured = 512;     ///< places where brightness is measured
+constexpr double kHottest = 10.0;  ///< times the mean, below any one light
+constexpr double kBrightest = 2.5; ///< times the mean, of the brightest twentieth of the surfaces
 
 /// std::mt19937_64 is the same everywhere, the distributions of <random> are not.
 class Numbers {
@@ -71,14 +70,43 @@ std::vector<Spot> spotsIn(const Clearance& clearance, const Surfaces& surfaces, 
     return spots;
 }
 
-scenes::Light lightOf(int number, double rangeMetres, const Scatter& scatter, Numbers& numbers) {
+/// Lux on a surface of point lights of luminous colours, without shadows.
+double illuminanceAt(const std::vector<scenes::Light>& lights, const Surfaces::Place& place) {
+    double sum = 0.0;
+    for (const scenes::Light& light : lights) {
+        const glm::dvec3 toLight = light.positionWS - place.positionWS;
+        const double metres = glm::length(toLight), height = glm::dot(toLight, place.normalWS);
+        if (!(height > 0.0) || metres >= double(light.rangeMetres)) continue;
+        const double window = 1.0 - std::pow(metres / double(light.rangeMetres), 4.0);
+        sum += double(light.intensity) * window * window * height / (metres * metres * metres);
+    }
+    return sum;
+}
+
+/// Scales intensities to a mean illuminance of the surfaces, or less where that would burn a twentieth of them, or the
+/// place below the light that is nearest to a surface, which is `hottestLux` now.
+void scaleTo(double lux, double hottestLux, std::vector<scenes::Light>& lights, const Surfaces& surfaces,
+             Numbers& numbers) {
+    std::vector<double> measured(kMeasured);
+    for (double& here : measured) {
+        const double triangle = numbers.unit(), u = numbers.unit(), v = numbers.unit();
+        here = illuminanceAt(lights, surfaces.at(triangle, u, v));
+    }
+    const double mean = std::accumulate(measured.begin(), measured.end(), 0.0) / kMeasured;
+    if (!(mean > 0.0)) return;
+    const auto bright = measured.end() - kMeasured / 20;
+    std::ranges::nth_element(measured, bright);
+    const double scale = lux * std::min({1.0 / mean, kBrightest / *bright, kHottest / hottestLux});
+    for (scenes::Light& light : lights) light.intensity *= float(scale);
+}
+
+scenes::Light lightOf(int number, double rangeMetres, Numbers& numbers) {
     scenes::Light light;
     light.name = fmt::format("scattered {}", number);
     // As likely in any step that an eye tells apart: those are even in the reciprocals.
     light.color = lampColor(1.0 / glm::mix(1.0 / kWarmestKelvin, 1.0 / kCoolestKelvin, numbers.unit()));
     light.rangeMetres = float(rangeMetres * std::sqrt(glm::mix(kLeastSquare, kMostSquare, numbers.unit())));
-    light.intensity = float(scatter.lux * kReachedShare * double(light.rangeMetres) * double(light.rangeMetres) /
-                            (scatter.lightsPerPoint * kMeanIrradiance));
+    light.intensity = light.rangeMetres * light.rangeMetres;
     return light;
 }
 
@@ -117,8 +145,9 @@ std::vector<scenes::Light> scatterLights(const scenes::Scene& scene, const Scatt
     // So many lights a square metre reach lightsPerPoint of them into the disc of the range.
     const double rangeMetres = std::min(diagonalMetres, std::sqrt(scatter.lightsPerPoint * areaSquareMetres /
                                                                   (std::numbers::pi * kReachedShare * scatter.count)));
+    double hottestLux = 0.0;
     for (int i = 0; i < scatter.count; ++i) {
-        scenes::Light light = lightOf(i, rangeMetres, scatter, numbers);
+        scenes::Light light = lightOf(i, rangeMetres, numbers);
         if (spots.empty()) {
             const double x = numbers.unit(), y = numbers.unit(), z = numbers.unit();
             light.positionWS = boundsWS.min + glm::dvec3(x, y, z) * (boundsWS.max - boundsWS.min);
@@ -131,9 +160,11 @@ std::vector<scenes::Light> scatterLights(const scenes::Scene& scene, const Scatt
             const double roomMetres = kLowest * double(light.rangeMetres);
             const double nearMetres = clearance.metresAround(light.positionWS, roomMetres).value_or(roomMetres);
             light.intensity *= float(nearMetres * nearMetres / (roomMetres * roomMetres));
+            hottestLux = std::max(hottestLux, double(light.intensity) / (nearMetres * nearMetres));
         }
         lights.push_back(std::move(light));
     }
+    if (!spots.empty()) scaleTo(scatter.lux, hottestLux, lights, surfaces, numbers);
     return lights;
 }
 

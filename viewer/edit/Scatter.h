@@ -12,7 +12,7 @@ struct Scatter {
     int count = 1024; ///< 0 to kMostScattered
     std::uint64_t seed = 1;
     double lightsPerPoint = 8.0; ///< that reach a point of a surface, on average; decides their range
-    double lux = 1.0;            ///< mean illuminance of all of them on surfaces
+    double lux = 0.5;            ///< mean illuminance of surfaces; less where it would burn a twentieth of them
 };
 
 /// Point lights before the floors, walls and ceilings of a scene and inside its bounds, as dense on one surface as on

@@ -144,7 +144,10 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     if (state.compare == Compare::Off && left)
         parts.push_back(lookName(*left, state.open ? &state.open->scene().lights : nullptr));
     if (facts.scale > 0.0) {
-        parts.push_back(pictureTimeText(facts.ms));
+        double ms = 0.0; // of the sides in the window
+        for (int side = 0; side < state.sides(); ++side)
+            if (const FrameTimes* const latest = state.timings.latest(side)) ms += latest->ms;
+        parts.push_back(pictureTimeText(ms));
         if (facts.picturesPerSecond) parts.push_back(fmt::format("{:.0f} frames/s", *facts.picturesPerSecond));
         parts.push_back(fmt::format("scale {:.3g}", facts.scale));
         parts.push_back(fmt::format("{}x{}", facts.sizePixels.x, facts.sizePixels.y));
@@ -267,8 +270,8 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         drawDivider(state, area, scale); // which is taken before a handle
         drawLegend(state, facts, area, scale);
         drawNames(state, facts, area, scale);
+        drawPins(state, area); // whose markers lie below the inspector
         drawInspector(state, facts, area);
-        drawPins(state, area);
         drawResource(state, facts, area);
         drawDragText(state, area);
         drawPanelEdge(state, area, scale);

@@ -1,5 +1,7 @@
+#include <algorithm>
+#include <span>
+
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <imgui.h>
 
 #include "viewer/panels/Panels.h"
@@ -8,29 +10,46 @@
 namespace tessera::viewer {
 namespace {
 
-void passes(State&, const graph::Plan& plan) {
+/// Name of a resource; a click shows its contents.
+void link(State& state, const graph::Plan& plan, const std::string& name) {
+    const bool isShown = state.resource.name == name;
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
+    const bool isClicked = ImGui::Selectable(labelOf(name).c_str(), isShown);
+    ImGui::PopStyleColor();
+    tip("Shows its contents");
+    if (!isClicked) return;
+    state.resource.show(isShown ? std::string() : name);
+    const auto resource = std::ranges::find(plan.resources, name, &graph::Plan::Resource::name);
+    // Radiance covers many magnitudes.
+    state.resource.isCurved =
+        resource != plan.resources.end() && (resource->format == "RGBA32F" || resource->format == "RGBA16F");
+}
+
+void links(State& state, const graph::Plan& plan, const char* verb, std::span<const std::string> names) {
+    ImGui::PushID(verb);
+    for (const std::string& name : names) {
+        ImGui::TextDisabled("%s", verb);
+        ImGui::SameLine();
+        link(state, plan, name);
+    }
+    ImGui::PopID();
+}
+
+void passes(State& state, const graph::Plan& plan) {
     for (const graph::Plan::Pass& pass : plan.passes) {
+        ImGui::PushID(&pass);
         ImGui::BulletText("%s", pass.name.c_str());
         ImGui::Indent();
-        if (!pass.reads.empty()) paragraph(fmt::format("reads {}", fmt::join(pass.reads, ", ")));
-        if (!pass.writes.empty()) paragraph(fmt::format("writes {}", fmt::join(pass.writes, ", ")));
+        links(state, plan, "reads", pass.reads);
+        links(state, plan, "writes", pass.writes);
         ImGui::Unindent();
+        ImGui::PopID();
     }
 }
 
-/// A click on the name shows what the resource holds.
-void resourceRows(State& state, const graph::Plan::Resource& resource) {
-    const bool isShown = state.resource.name == resource.name;
+void resourceRows(State& state, const graph::Plan& plan, const graph::Plan::Resource& resource) {
     ImGui::Bullet();
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark)); // as a link
-    const bool isClicked = ImGui::Selectable(labelOf(resource.name).c_str(), isShown);
-    ImGui::PopStyleColor();
-    if (isClicked) {
-        state.resource.show(isShown ? std::string() : resource.name);
-        // Light, of many magnitudes.
-        state.resource.isCurved = resource.format == "RGBA32F" || resource.format == "RGBA16F";
-    }
-    tip("Shows what it holds");
+    link(state, plan, resource.name);
     std::string text(resource.format);
     if (resource.width > 0) text += fmt::format("  {}x{}", resource.width, resource.height);
     if (resource.samples > 1) text += fmt::format("  {} samples", resource.samples);
@@ -45,7 +64,7 @@ void resourceRows(State& state, const graph::Plan::Resource& resource) {
 void resources(State& state, const graph::Plan& plan) {
     for (const bool areTextures : {true, false})
         for (const graph::Plan::Resource& resource : plan.resources)
-            if ((resource.width > 0) == areTextures) resourceRows(state, resource);
+            if ((resource.width > 0) == areTextures) resourceRows(state, plan, resource);
     paragraph(fmt::format("{} in all, {} if none shared memory", graph::readableBytes(plan.bytes),
                           graph::readableBytes(plan.bytesWithoutAliasing)));
 }

@@ -49,26 +49,27 @@ void helpTable(const HelpGroup& group) {
 } // namespace
 
 void helpOverlay(State& state, float scale) {
-    constexpr float kColumnWidth = 480.0f;
+    constexpr float kColumnWidth = 420.0f;
+    constexpr int kMostColumns = 3;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
-    const bool hasTwoColumns = display.x >= 2.0f * kColumnWidth * scale;
-    const float width = std::min((hasTwoColumns ? 2.0f : 1.0f) * kColumnWidth * scale, display.x);
+    const int columns = std::clamp(int(display.x / (kColumnWidth * scale)), 1, kMostColumns);
+    const float width = std::min(float(columns) * kColumnWidth * scale, display.x);
     ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, display.y});
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize;
     if (ImGui::Begin("Help", &state.showsHelp, flags) &&
-        ImGui::BeginTable("groups", hasTwoColumns ? 2 : 1, ImGuiTableFlags_SizingStretchSame)) {
+        ImGui::BeginTable("groups", columns, ImGuiTableFlags_SizingStretchSame)) {
         const std::vector<HelpGroup> groups = helpGroups();
         std::size_t rows = 0, all = 0;
         for (const HelpGroup& group : groups) all += group.rows.size();
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
-        bool isSecond = false;
+        std::size_t column = 0;
         for (const HelpGroup& group : groups) {
-            if (hasTwoColumns && !isSecond && 2 * rows >= all) {
+            if (rows * std::size_t(columns) >= (column + 1) * all) {
                 ImGui::TableNextColumn();
-                isSecond = true;
+                ++column;
             }
             helpTable(group);
             rows += group.rows.size();

@@ -208,17 +208,18 @@ bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
 /// Buttons that change which lights there are.
 void listButtons(State& state) {
     const bool any = state.selectedLight != scenes::kNone;
+    const std::size_t count = state.allSelectedLights().size();
+    const std::string number = count > 1 ? fmt::format(" {}", count) : "";
     const float width = (ImGui::GetContentRegionAvail().x - 2.0f * ImGui::GetStyle().ItemSpacing.x) / 3.0f;
     if (ImGui::Button("Add", {width, 0.0f})) state.requests.addLight = true;
     tip("A point light halfway to the surface in the picture's middle");
     ImGui::SameLine();
     ImGui::BeginDisabled(!any);
-    if (ImGui::Button("Duplicate", {width, 0.0f})) duplicateSelectedLights(state);
+    if (ImGui::Button(fmt::format("Duplicate{}###duplicate", number).c_str(), {width, 0.0f}))
+        duplicateSelectedLights(state);
     tip("A copy of each selected light, in the same place");
     ImGui::SameLine();
-    const std::size_t count = state.allSelectedLights().size();
-    const std::string label = count > 1 ? fmt::format("Delete {}###delete", count) : "Delete###delete";
-    if (ImGui::Button(label.c_str(), {width, 0.0f})) deleteSelectedLights(state);
+    if (ImGui::Button(fmt::format("Delete{}###delete", number).c_str(), {width, 0.0f})) deleteSelectedLights(state);
     ImGui::EndDisabled();
     tip("The selected lights (Del); Ctrl+A selects all");
 }

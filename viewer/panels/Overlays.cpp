@@ -45,7 +45,8 @@ void drawTitle(const Look& look, const std::vector<scenes::Light>* lights, const
     ImFont* const font = ImGui::GetFont();
     ImFont* const titleFont = ImGui::GetIO().Fonts->Fonts.back(); // of that size, where fonts are installed
     const float em = ImGui::GetFontSize(), pad = 5.0f * scale, width = part.size.x - 6.0f * pad;
-    const std::string name = viewName(look, lights), meaning = viewMeaning(look.settings.view);
+    const std::string name = viewName(look, lights),
+                      meaning = viewMeaning(look.settings.view, look.settings.soloLight.has_value());
     const ImVec2 nameSize = titleFont->CalcTextSizeA(titlePixels(em), FLT_MAX, width, name.c_str());
     const ImVec2 meaningSize = font->CalcTextSizeA(em, FLT_MAX, width, meaning.c_str());
     const ImVec2 size(std::max(nameSize.x, meaningSize.x), nameSize.y + meaningSize.y);
@@ -72,7 +73,8 @@ void drawDifferenceNames(const State& state, const Facts& facts, const std::vect
     if (left && right) {
         const std::array<std::string, 2> names = sideNames(*left, *right, lights);
         const bool isThere = left->settings.sizePixels == right->settings.sizePixels;
-        drawName(isThere ? fmt::format("{} against {}, {:.4g} times", names[0], names[1], state.amplification)
+        drawName(isThere ? fmt::format("{} against {}, {:.4g} times; panels set {} (Z)", names[0], names[1],
+                                       state.amplification, state.activeSide == 0 ? "the former" : "the latter")
                          : fmt::format("{}; the difference to {} follows", names[0], names[1]),
                  area, Corner::UpperLeft, kPlain, scale, top);
     }

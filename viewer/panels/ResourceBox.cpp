@@ -1,6 +1,7 @@
 #include "viewer/panels/ResourceBox.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -100,17 +101,20 @@ void picture(ResourceView& view, const Facts::Resource& resource) {
 void words(ResourceView& view, const ResourceContents& contents) {
     ResourceView::Words as = view.words.value_or(contents.likelyWords());
     if (chooseOne("As", as, kWords, "How the buffer's words of four bytes are read")) view.words = as;
-    constexpr int kColumns = 4;
+    constexpr float kWordEms = 6.0f; ///< ten digits
+    const float columnsFit = ImGui::GetContentRegionAvail().x / (kWordEms * ImGui::GetFontSize());
+    // A power of two, so that the numbers at the left are round.
+    const auto columns = std::bit_floor(std::size_t(std::clamp(columnsFit - 1.0f, 1.0f, 16.0f)));
     const std::size_t count = contents.words.size();
-    if (!ImGui::BeginTable("##words", kColumns + 1, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
+    if (!ImGui::BeginTable("##words", int(columns) + 1, ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg)) return;
     ImGuiListClipper clipper;
-    clipper.Begin(int((count + kColumns - 1) / kColumns));
+    clipper.Begin(int((count + columns - 1) / columns));
     while (clipper.Step())
         for (int line = clipper.DisplayStart; line < clipper.DisplayEnd; ++line) {
-            const std::size_t first = std::size_t(line) * kColumns;
+            const std::size_t first = std::size_t(line) * columns;
             ImGui::TableNextColumn();
             ImGui::TextDisabled("%zu", first);
-            for (std::size_t i = first; i < first + kColumns; ++i) {
+            for (std::size_t i = first; i < first + columns; ++i) {
                 ImGui::TableNextColumn();
                 if (i < count) ImGui::TextUnformatted(ResourceContents::wordText(contents.words[i], as).c_str());
             }
@@ -131,8 +135,9 @@ void drawResource(State& state, const Facts& facts, const PictureArea& area) {
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse |
                          ImGuiWindowFlags_NoFocusOnAppearing)) {
         const bool isRead = facts.resource && facts.resource->contents->name == view.name;
+        if (isRead && facts.picturesPerSecond) ImGui::TextDisabled("Of the last idle image (Space: pause)");
         if (!isRead) {
-            paragraph("It is read once the picture rests.");
+            paragraph("Read as soon as the image is idle.");
         } else if (const ResourceContents& contents = *facts.resource->contents; !contents.fault.empty()) {
             paragraph(contents.fault);
         } else if (contents.isTexture()) {

@@ -39,7 +39,17 @@ bool isUsed(Hovered& latest) {
     return latest.isClicked;
 }
 
+/// Beside the panels rather than over their rows, where there is room.
+void placeTooltip() {
+    const ImGuiIO& io = ImGui::GetIO();
+    const float em = ImGui::GetFontSize(), besideX = ImGui::GetWindowPos().x + ImGui::GetWindowWidth() + 0.5f * em;
+    const bool isPanel = ImGui::GetWindowPos().x == 0.0f && ImGui::GetWindowHeight() >= io.DisplaySize.y;
+    if (isPanel && besideX + (kTipWidthEm + 2.0f) * em <= io.DisplaySize.x)
+        ImGui::SetNextWindowPos({besideX, std::min(ImGui::GetItemRectMin().y, io.DisplaySize.y - 8.0f * em)});
+}
+
 void tooltip(std::string_view words, const SmallPicture& picture = {}) {
+    placeTooltip();
     ImGui::BeginTooltip();
     if (picture.texture != 0)
         ImGui::Image(reinterpret_cast<ImTextureID>(std::uintptr_t(picture.texture)),

@@ -17,17 +17,16 @@ std::string viewName(const Look& look, const std::vector<scenes::Light>* lights)
     return isNamed ? name + " of " + lightLabel(*lights, std::size_t(*solo)) : name;
 }
 
-std::string viewMeaning(frame::DebugView view) {
+std::string viewMeaning(frame::DebugView view, bool isLit) {
     // The viewer chooses the light itself, and the picture's title names it.
-    constexpr const char* kOther = "; the panel Lights selects another";
+    const char* const light = isLit ? "; the panel Lights selects another" : "; no light is on";
     switch (view) {
     case frame::DebugView::Distribution:
-        return fmt::format("D: how many microfacets mirror the light towards the eye{}", kOther);
+        return fmt::format("D: how many microfacets mirror the light towards the eye{}", light);
     case frame::DebugView::Geometry:
-        return fmt::format("G: the share of microfacets that light and eye both reach, past their neighbours{}",
-                           kOther);
+        return fmt::format("G: the share of microfacets that light and eye both reach, past their neighbours{}", light);
     case frame::DebugView::Fresnel:
-        return fmt::format("F: the share of the light that microfacets reflect, by colour{}", kOther);
+        return fmt::format("F: the share of the light that microfacets reflect, by colour{}", light);
     default:
         return std::string(frame::debugViewInfo(view).meaning);
     }

@@ -26,8 +26,8 @@ Look drawnLook(const State& state, int side);
 /// The view of a look, large in the picture: "geometry of lamp 3".
 std::string viewName(const Look& look, const std::vector<scenes::Light>* lights = nullptr);
 
-/// What its colours mean, in a line.
-std::string viewMeaning(frame::DebugView view);
+/// Meaning of the view's colours, in a line; `isLit` where a light is on, whose terms some views show.
+std::string viewMeaning(frame::DebugView view, bool isLit = true);
 
 /// "forward / final"; "forward / geometry of lamp 3", where the lights are given.
 std::string lookName(const Look& look, const std::vector<scenes::Light>* lights = nullptr);

@@ -153,7 +153,9 @@ void FileDialog::type(const std::string& text) {
 void FileDialog::step(int lines) {
     if (entries_.empty()) return;
     const int count = int(entries_.size());
-    const int from = chosen_ ? int(*chosen_) : lines > 0 ? -1 : count;
+    // Below a folder that is typed, the first line is what it holds.
+    const bool skipsAbove = purpose_ == Purpose::Open && !text_.empty() && count > 1 && entries_.front().name == kAbove;
+    const int from = chosen_ ? int(*chosen_) : lines < 0 ? count : skipsAbove ? 0 : -1;
     choose(std::size_t(std::clamp(from + lines, 0, count - 1)));
     isMoved_ = true;
 }

@@ -77,6 +77,8 @@ TEST(DrawnLook, everyViewHasALineOfMeaning) {
         // Those of one light are of the selected one, or the brightest, not of the one that the command line chooses.
         const bool namesPanel = meaning.find("the panel Lights selects another") != std::string::npos;
         EXPECT_EQ(namesPanel, showsTermOfOne(info.view)) << meaning;
+        const bool saysDark = viewMeaning(info.view, false).find("no light is on") != std::string::npos;
+        EXPECT_EQ(saysDark, showsTermOfOne(info.view)) << meaning;
     }
 }
 

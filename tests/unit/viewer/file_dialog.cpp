@@ -92,6 +92,9 @@ TEST_F(Files, arrowsChooseAndEnterGoesIntoFoldersAndUp) {
     dialog.type("b");
     dialog.step(100);
     EXPECT_EQ(dialog.accept(), at("b.glb"));
+    dialog.type("models/");
+    dialog.step(1);
+    EXPECT_EQ(dialog.accept(), at("models/one.gltf")) << "a typed folder begins below '../'";
 }
 
 TEST_F(Files, tabLengthensTheTextAsFarAsNamesAgree) {

@@ -103,7 +103,8 @@ TEST_F(ResourceBox, showsABuffersWordsAndWhyATextureIsMissing) {
     list.fault = "not used";
     EXPECT_THAT(shown(state, list), testing::HasSubstr("not used"));
     list.name = "another";
-    EXPECT_THAT(shown(state, list), testing::HasSubstr("once the picture rests")) << "what was read is of another one";
+    EXPECT_THAT(shown(state, list), testing::HasSubstr("as soon as the image is idle"))
+        << "what was read is of another one";
 }
 
 TEST_F(ResourceBox, aTextureHasRowsForItsLevelsLayersAndChannels) {
