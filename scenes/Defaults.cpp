@@ -161,11 +161,10 @@ std::string suppliedText(const Scene& scene, Advice advice) {
         const bool isBlurred = wishes.contains("backdrop");
         const std::string besides =
             fillShare == 0.0 ? "" : fmt::format(" at {:.0f} % beside its own lights", 100.0 * fillShare);
-        given = fmt::format("lit by the built-in environment '{}'{}, turned to the camera{} ({})", kDefaultEnvironment,
-                            besides, isBlurred ? ", before a blurred backdrop" : "",
-                            isOptions ? "--environment chooses another, --backdrop what is seen of it, "
-                                        "--no-default-light leaves it dark"
-                                      : "the panel Environment chooses another or none, and what is seen of it");
+        given = fmt::format("lit by the environment '{}'{}{} ({})", kDefaultEnvironment, besides,
+                            isBlurred ? ", blurred behind it" : "",
+                            isOptions ? "--environment, --backdrop or --no-default-light change that"
+                                      : "the panel Environment changes that");
     }
     if (camera) {
         if (!replacesCameras) lacks += lacks.empty() ? "no camera" : " and no camera";

@@ -75,6 +75,7 @@ Scene importFile(const std::string& path, LoadLedger& ledger) {
     const Format* format = formatOf(file);
     std::error_code failure;
     if (!std::filesystem::exists(file, failure)) {
+        if (path.find("://") != path.npos) throw InputError(path + ": is a URL; download the file and give its path");
         if (format != nullptr || file.has_parent_path()) throw InputError(path + ": no such file; check the path");
         std::vector<std::string_view> names;
         for (const BuiltinScene& scene : builtinScenes()) names.push_back(scene.name);
@@ -82,7 +83,8 @@ Scene importFile(const std::string& path, LoadLedger& ledger) {
     }
     if (std::filesystem::is_directory(file, failure)) refuseFolder(path);
     if (format == nullptr) {
-        throw InputError(path + ": not a scene file; give a .gltf, .glb, .obj or .json file");
+        throw InputError(path + ": not a scene file; give a .gltf, .glb, .obj or .json file (Blender, for one, exports "
+                                "glTF)");
     }
     return format->import(file, ledger);
 }

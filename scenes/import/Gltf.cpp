@@ -59,10 +59,11 @@ void addInstances(Context& context, Meshes& meshes, const Instancing& instancing
     }
 }
 
-/// Features of the document that the importer reads past, whether or not the imported scene shows them.
+/// Warns of unsupported extensions; those that the model requires are reported already.
 void warnOfIgnoredFeatures(Context& context) {
-    for (const std::string& extension : context.document.model.extensionsUsed)
-        if (!isSupported(extension))
+    const tiny::Model& model = context.document.model;
+    for (const std::string& extension : model.extensionsUsed)
+        if (!isSupported(extension) && std::ranges::count(model.extensionsRequired, extension) == 0)
             context.warn("the extension {} is not supported and was ignored{}", extension,
                          extension == "KHR_materials_diffuse_transmission" // whose name does not imply what is drawn
                              ? "; its materials let through only what their alpha does"

@@ -146,7 +146,8 @@ Container readContainer(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::size_t first = container.json.find_first_not_of(" \t\r\n");
     constexpr std::string_view kBeginnings = "{/"; // of comments, which are repaired
     if (first == std::string::npos || kBeginnings.find(container.json[first]) == kBeginnings.npos)
-        throw InputError(fmt::format("{}: is neither glTF JSON (begins with '{{') nor glb (begins with 'glTF')", name));
+        throw InputError(fmt::format(
+            "{}: is neither glTF JSON (begins with '{{') nor glb (begins with 'glTF'); export the model again", name));
     return container;
 }
 

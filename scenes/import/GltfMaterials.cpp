@@ -308,8 +308,11 @@ TextureUse Materials::use(const TextureInfo& info, TextureSlot slot, const std::
         picture = image(webp, texture.source == kNone ? kStandInText : "; the texture's other picture is used instead");
     if (picture == kNone && texture.source != kNone) picture = image(texture.source, kStandInText);
     if (texture.source == kNone && webp == kNone)
-        context_.repair(fmt::format("/textures/{}", info.texture), kStandInText,
-                        "has no source in a supported format; store it as PNG or JPEG");
+        context_.repair(fmt::format("/textures/{}", info.texture), kStandInText, "{}",
+                        std::ranges::count(model.extensionsUsed, "KHR_texture_basisu") > 0
+                            ? "has a source in KTX2 alone; 'ktx extract --transcode rgba8 IN.ktx2 OUT.png' of "
+                              "KTX-Software makes it one in PNG"
+                            : "has no source in a supported format; store it as PNG or JPEG");
     if (picture == kNone && !takesStandIn(slot)) return {};
     TextureUse use{picture == kNone ? standIn() : picture, {}, info.texCoordSet, info.transform};
     if (texture.sampler != kNone) use.sampler = samplerOf(elementAt(model.samplers, texture.sampler));

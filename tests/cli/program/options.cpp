@@ -179,7 +179,7 @@ TEST_F(FrameOptions, noDefaultLightLeavesASceneWithoutLightsDark) {
     const Words render{"render", "quad.json", "--size", "48x27", "-o", "lit.exr"};
     const ProcessResult lit = run(render);
     EXPECT_EQ(lit.exitCode, 0);
-    EXPECT_THAT(lit.out, testing::HasSubstr("lit by the built-in environment 'studio'"));
+    EXPECT_THAT(lit.out, testing::HasSubstr("lit by the environment 'studio'"));
     EXPECT_GT(mean(picture("lit.exr")), 0.0);
     EXPECT_EQ(mean(pictureOf({"--no-default-light"})), 0.0);
 }

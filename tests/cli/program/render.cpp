@@ -117,8 +117,7 @@ TEST_F(Render, quietSilencesWarningsAndNothingElse) {
     const ProcessResult loud = run({"render", "tri.obj", "--size", "16x9", "-o", "a.png"});
     EXPECT_EQ(loud.exitCode, 0);
     EXPECT_THAT(loud.err, testing::HasSubstr("tessera: warning: tri: ")) << "the library of materials is missing";
-    EXPECT_THAT(loud.out,
-                testing::StartsWith("no light and no camera in it: lit by the built-in environment 'studio', "))
+    EXPECT_THAT(loud.out, testing::StartsWith("no light and no camera in it: lit by the environment 'studio', "))
         << "and what the scene was given is no warning";
     const std::string first = text("a.png");
     EXPECT_EQ(runGood({"--quiet", "render", "tri.obj", "--size", "16x9", "-o", "a.png"}), "");

@@ -89,13 +89,10 @@ TEST(DefaultLight, isTheStudioBeforeABlurredBackdrop) {
     ASSERT_TRUE(scene.environment);
     EXPECT_EQ(scene.environment->source, "builtin:studio");
     EXPECT_EQ(scene.options.wishes.at("backdrop"), Wish("blurred"));
-    constexpr const char* kOthers =
-        " (--environment chooses another, --backdrop what is seen of it, --no-default-light leaves it dark)";
-    const std::string lit = "no light in it: lit by the built-in environment 'studio', turned to the camera";
-    EXPECT_EQ(suppliedText(scene), lit + ", before a blurred backdrop" + kOthers);
-    EXPECT_EQ(
-        suppliedText(scene, Advice::Panels),
-        lit + ", before a blurred backdrop (the panel Environment chooses another or none, and what is seen of it)");
+    constexpr const char* kOthers = " (--environment, --backdrop or --no-default-light change that)";
+    const std::string lit = "no light in it: lit by the environment 'studio'";
+    EXPECT_EQ(suppliedText(scene), lit + ", blurred behind it" + kOthers);
+    EXPECT_EQ(suppliedText(scene, Advice::Panels), lit + ", blurred behind it (the panel Environment changes that)");
     EXPECT_TRUE(scene.warnings.empty());
     Scene sharp = tinyScene();
     sharp.options.wishes["backdrop"] = "sharp";

@@ -39,7 +39,9 @@ TEST_F(LoadScene, missingAndForeignFilesAreNamed) {
     EXPECT_EQ(complaint("nowhere/scene.gltf"), "nowhere/scene.gltf: no such file; check the path");
     EXPECT_EQ(complaint("nowhere.obj"), "nowhere.obj: no such file; check the path");
     const std::string fbx = folder.file("scene.fbx", "x");
-    EXPECT_EQ(complaint(fbx), fbx + ": not a scene file; give a .gltf, .glb, .obj or .json file");
+    EXPECT_EQ(complaint(fbx),
+              fbx + ": not a scene file; give a .gltf, .glb, .obj or .json file (Blender, for one, exports glTF)");
+    EXPECT_EQ(complaint("https://a.org/b.glb"), "https://a.org/b.glb: is a URL; download the file and give its path");
     const std::string directory = folder.path().string();
     EXPECT_EQ(complaint(directory), directory + ": is a folder; give a .gltf, .glb, .obj or .json file");
     folder.write("box.GLTF", "{}");
@@ -139,9 +141,8 @@ TEST_F(LoadScene, filesWithoutViewOrLightGetTheDefaults) {
     EXPECT_EQ(scene.environment->source, "builtin:studio");
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(suppliedText(scene),
-              "no light and no camera in it: lit by the built-in environment 'studio', turned to the "
-              "camera, before a blurred backdrop (--environment chooses another, --backdrop what "
-              "is seen of it, --no-default-light leaves it dark), seen whole by the supplied camera 'default'");
+              "no light and no camera in it: lit by the environment 'studio', blurred behind it (--environment, "
+              "--backdrop or --no-default-light change that), seen whole by the supplied camera 'default'");
 
     EXPECT_FALSE(loadScene(file, loading(&LoadOptions::defaultLight, false)).environment);
 }

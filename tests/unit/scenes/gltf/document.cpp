@@ -99,6 +99,8 @@ TEST(GltfDocument, aRequiredExtensionThatIsNotSupportedIsLeftOutUnlessItCompress
     EXPECT_THAT(builder.error(), HasSubstr(kText));
     EXPECT_TRUE(
         hasWarning(builder.import(), std::string(kText) + "; export it without; it is drawn without (and 1 more)"));
+    builder.merge(R"({"extensionsUsed": ["KHR_gaussian_splatting", "KHR_texture_basisu"]})");
+    EXPECT_FALSE(hasWarning(builder.import(), "is not supported and was ignored")) << "it is reported twice";
     builder.merge(R"({"extensionsRequired": ["EXT_some_compression"]})");
     EXPECT_THROW(builder.import(), InputError);
 }

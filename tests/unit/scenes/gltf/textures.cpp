@@ -117,6 +117,8 @@ TEST(GltfTextures, missingOrBrokenImageIsACheckerboardOfColoursAndNothingElse) {
 
     builder.json["textures"][0] = Json::object();
     EXPECT_TRUE(hasWarning(builder.import(), "/textures/0: has no source in a supported format"));
+    builder.json["extensionsUsed"] = {"KHR_texture_basisu"};
+    EXPECT_TRUE(hasWarning(builder.import(), "/textures/0: has a source in KTX2 alone; 'ktx extract"));
 }
 
 TEST(GltfTextures, webpGoesBeforeTheOtherPictureAndThatStandsInForIt) {
