@@ -23,9 +23,6 @@ void takeEnteredValues(inout Surface surface)
 #if HAS_CLEARCOAT
     surface.coatFactor = 0.0;
 #endif
-#if HAS_SHEEN
-    surface.sheenColor = vec3(0.0);
-#endif
 }
 
 void main()

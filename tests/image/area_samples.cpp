@@ -163,6 +163,12 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
     tube = areaLight(LightType::Tube, {0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, 1.0f);
     tube.lengthMetres = 1.0f;
     expect(tube, 0.09 / (0.09 + 0.25), "end of a tube");
+    // Close below its rim (B-14).
+    constexpr double kAside = 0.29, kHeight = 0.03;
+    tube.positionWS = {kAside, 0.0, 0.5 + kHeight};
+    const double h = kHeight / kAside, r = 0.3 / kAside, z = 1.0 + h * h + r * r;
+    const double factor = 0.5 * (1.0 - (1.0 + h * h - r * r) / std::sqrt(z * z - 4.0 * r * r));
+    expectWithinThree(seen(scene, renderer, tube, 64, 32), pi * factor);
     // A triangle, by its edges (Lambert 1760).
     scenes::Light triangle = areaLight(LightType::Polygon, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, 1.0f);
     triangle.corners = cornersOf({{-0.4f, -0.3f}, {0.7f, 0.0f}, {0.1f, 0.6f}});

@@ -249,6 +249,24 @@ TEST_F(EnvironmentLobes, everyFaultIsSeenByItsKnownAnswer) {
 // Shaders of environments with one fault each: techniques share them and agree, the reference shares nothing and does
 // not.
 
+/// A white metal before an even sky shows the sky, however flat it is seen.
+TEST_F(EnvironmentLobes, metalSeenAlmostEdgeOnStillShowsTheSky) {
+    const ShaderMutant shaders;
+    for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
+        for (const double cosine : {0.05, 0.005}) {
+            scenes::Scene scene = flatQuad({});
+            lookAtCosine(scene.cameras[0], cosine, 1e-4);
+            scene.materials[0].baseColor = glm::vec4(1.0f);
+            scene.materials[0].perceptualRoughness = 0.1f;
+            scene.environment = evenEnvironment(1.0);
+            frame::FrameSettings settings = ofSize(2, 2);
+            settings.environment.light = light;
+            const float seen = drawn(scene, settings, Technique::Forward, shaders.tree())[0];
+            EXPECT_NEAR(seen, 1.0f, 0.1f) << "cosine " << cosine;
+        }
+    }
+}
+
 struct EnvironmentFault {
     const char* fault;
     EnvironmentLight light;

@@ -247,6 +247,23 @@ TEST_F(Subsurface, aBodyThatCastsNoShadowsLetsNoLightThrough) {
     }
 }
 
+/// A cascade keeps casters at most a texel's width nearer to the sun than they are, here 6 mm, as the slab is steep.
+TEST_F(Subsurface, aSteepSlabLetsThroughAnExponentialOfItsWayInCoarseCascades) {
+    constexpr double kThickness = 0.004;
+    scenes::Mesh slab;
+    scenes::builtin::appendBox(slab, {-0.5, -0.5, -kThickness}, {0.5, 0.5, 0.0});
+    scenes::Scene scene = bodyBeforeLights(slab, 0.1);
+    scene.materials[0].subsurface.absorptionPerMillimetre = glm::vec3(1.0f);
+    scene.lights.resize(1);
+    scene.lights[0].directionWS = glm::normalize(glm::dvec3(2.5, 0.0, 1.0));
+    frame::FrameSettings settings = withShadows(ofSize(33, 33), frame::ShadowFilter::Hard);
+    settings.shadowMaps.resolutionTexels = 64;
+    engine::Renderer renderer(context(), scene);
+    const double found = middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings)));
+    const double wanted = behindSlab(scene, scene.lights[0], glm::dvec3(0.0), kThickness).x;
+    EXPECT_NEAR(found, wanted, 0.01 * wanted);
+}
+
 TEST_F(Subsurface, aBallLetsThroughAnExponentialOfItsChords) {
     constexpr double kRadius = 0.02;
     scenes::Mesh ball;

@@ -160,6 +160,17 @@ TEST_F(MapsTest, aLightWithoutRoomHasNoFaceAndIsCounted) {
     }
 }
 
+TEST_F(MapsTest, aLampFarFromTheSceneHasAMapOfNoUse) {
+    scenes::Scene scene = latticeOf(1);
+    for (const double metres : {1e2, 1e9}) {
+        scene.lights = {test::pointLight({0.0, 0.0, metres}, 5.0f)};
+        const ShadowMaps maps = mapsOf(scene);
+        ASSERT_EQ(maps.lights.size(), 1u);
+        EXPECT_GT(maps.lights[0].sideTexels, 0);
+        EXPECT_EQ(maps.useless(), metres > 1e8 ? 1u : 0u) << "fp32 rounds its distances by 64 m";
+    }
+}
+
 TEST_F(MapsTest, everyDirectionFromAPointLightFallsIntoTheFaceThatShadersChoose) {
     scenes::Scene scene = latticeOf(1);
     scene.lights = {test::pointLight({0.3, 0.2, -0.1}, 5.0f)};
