@@ -25,7 +25,6 @@ Lens makeLens(const scenes::Camera& camera, glm::ivec2 sizePixels, const glm::dv
     lens.clipFromView[0][0] = 1.0 / lens.halfExtent.x;
     lens.clipFromView[1][1] = 1.0 / lens.halfExtent.y;
     (isPerspective ? lens.clipFromView[2][3] : lens.clipFromView[3][3]) = isPerspective ? -1.0 : 1.0;
-    if (offsetPixels == glm::dvec2(0.0)) return lens;
     // Of clip.w, which the origin of lighting space adds its part to below.
     lens.shift = 2.0 * offsetPixels / glm::dvec2(sizePixels);
     // Depths are those of all that the shifted picture sees.

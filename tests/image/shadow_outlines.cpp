@@ -309,6 +309,29 @@ TEST_F(ShadowOutline, ofPcfIsAsWideOnASteepSlopeAsAcrossTheLight) {
     EXPECT_NEAR((dark + 0.5 * partly) / 128.0, 2.0 * kHalfSide, std::sqrt(10.0) * texelMetres);
 }
 
+// The square of texels is centred on the point.
+TEST_F(ShadowOutline, ofPcfLiesInTheMiddleBelowAPlate) {
+    scenes::Light light = sun();
+    light.directionWS = {0.0, 0.0, -1.0};
+    frame::FrameSettings settings = withView(ofSize(256, 256), frame::DebugView::Shadow);
+    settings.shadowFilter = frame::ShadowFilter::Pcf;
+    settings.shadowMaps.widthTexels = 7;
+    settings.shadowMaps.resolutionTexels = 256;
+    settings.shadowMaps.cascades = 1;
+    const std::vector<float> seen = drawn(plateSeenThrough(plateUnder(light), 0.1), settings);
+    glm::dvec2 sum(0.0);
+    double dark = 0.0;
+    for (std::size_t i = 0; i < 256 * 256; ++i) {
+        const double here = 1.0 - double(seen[4 * i]);
+        sum += here * glm::dvec2(double(i % 256) + 0.5, 255.5 - double(i / 256));
+        dark += here;
+    }
+    const glm::dvec2 middleWS = sum / dark / 128.0 - 1.0;
+    const double texelMetres = 2.0 * 1.68179 / (256.0 - 2.0 * 5.0);
+    // Each of its edges lies on one between texels.
+    EXPECT_LT(glm::distance(middleWS, glm::dvec2(kCasterWS)), texelMetres);
+}
+
 // A light that grazes the ground, 7 m aside for one of height, and a wall across its way. Half a texel on the ground is
 // 3.5 texels deep for the light, so that the ground could be as far nearer than it is; but behind a wall that fills the
 // texel beside, on the ground's upper side, it is dark from a texel on. A texel is 0.19 m of ground long, in which the

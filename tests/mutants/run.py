@@ -47,6 +47,11 @@ STATEMENT = re.compile(r"^\s*(?:if \(.*\) (?:return|continue|break|discard)\b.*;
 SKIPPED = re.compile(r"^\s*(#|//|/\*|\*|layout\b|uniform\b|struct\b|precision\b|static_assert|using |namespace|extern)")
 
 
+def codeOf(line):
+    """A line without its comment."""
+    return line.split("//")[0].strip()
+
+
 def otherNumber(text):
     """1 % more of a number with a point, 0.01 for 0.0, one more of a whole number."""
     number, suffix = re.fullmatch(r"(.*?)([fFuU]?)", text).groups()
@@ -79,7 +84,7 @@ class Mutant:
         self.name = ""  # its key, told apart from the same change to the same line elsewhere in the file
 
     def key(self):
-        return f"{self.path} | {self.before.strip()} | {self.after.strip()}"
+        return f"{self.path} | {codeOf(self.before)} | {codeOf(self.after)}"
 
     def __str__(self):
         return f"{self.path}:{self.number}: {self.what}: {self.after.strip()}"

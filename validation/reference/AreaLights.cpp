@@ -119,7 +119,7 @@ public:
 private:
     struct Square {
         std::size_t patch = 0;
-        glm::dvec2 corner{0.0}, size{1.0};
+        glm::dvec2 corner, size;
         glm::dvec3 sum{0.0}, difference{0.0};
         double worst() const { return greatest(difference); }
         glm::dvec2 at(double x, double y) const { return corner + glm::dvec2(x, y) * size; }

@@ -75,6 +75,16 @@ protected:
     Framebuffer framebuffer{Attachments{{&target}}};
 };
 
+TEST_F(PartsTest, aWindowIsDrawnToWholeAndWithoutASecondEncoding) {
+    bindWindowFramebuffer(5, 3);
+    int drawn = -1, viewport[4] = {};
+    glad_glGetIntegerv(0x8CA6, &drawn);   // GL_DRAW_FRAMEBUFFER_BINDING
+    glad_glGetIntegerv(0x0BA2, viewport); // GL_VIEWPORT
+    EXPECT_EQ(drawn, 0);
+    EXPECT_EQ(std::vector(viewport, viewport + 4), (std::vector{0, 0, 5, 3}));
+    EXPECT_FALSE(glad_glIsEnabled(0x8DB9)) << "GL_FRAMEBUFFER_SRGB: its colours are encoded already";
+}
+
 TEST_F(PartsTest, withoutBandedDrawingAllTrianglesAreDrawnAtOnce) {
     draw(100'000);
     ASSERT_EQ(parts.size(), 1u);

@@ -48,6 +48,14 @@ TEST(UvAtlas, aSquareCoversItsTexelsOnceAndKnowsItsSteps) {
     EXPECT_NEAR(larger.steps[0].uMetres, 6.0 / 32.0, 1e-12);
 }
 
+TEST(UvAtlas, aLoneTriangleIsAChart) {
+    Mesh mesh = square();
+    mesh.indices.resize(3);
+    const UvAtlas atlas = makeUvAtlas(mesh, glm::dmat4(1.0), 64, 0, 4);
+    EXPECT_EQ(atlas.chartCount, 1u);
+    EXPECT_EQ(atlas.at(40, 20).chart, 1);
+}
+
 TEST(UvAtlas, pastAnEdgeThatNothingSharesThePlaceIsMirrored) {
     const UvAtlas atlas = makeUvAtlas(square(), glm::dmat4(1.0), 64, 0, 4);
     for (int out = 1; out <= 4; ++out) {
