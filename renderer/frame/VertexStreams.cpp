@@ -153,7 +153,7 @@ void requireFewCopies(const scenes::Scene& scene, const std::vector<std::vector<
 std::vector<std::string> streamNames(const FeatureSet& features) {
     std::vector<std::string> names{"positions", "normals"};
     if (features.tangents()) names.emplace_back("tangents");
-    if (features.textures()) names.emplace_back("texture_coordinates_0");
+    if (features.texCoords()) names.emplace_back("texture_coordinates_0");
     if (features[Feature::TexCoord1]) names.emplace_back("texture_coordinates_1");
     if (features[Feature::VertexColor]) names.emplace_back("vertex_colors");
     return names;

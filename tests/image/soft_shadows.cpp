@@ -280,6 +280,7 @@ TEST_SWEEP(SoftShadows, ofAPictureAreWithinTheirNoiseOfTheReference) {
         EXPECT_GT(figures.noisyPixels, 1000u);
         // By one ray the noise is that of independent ones, by 16 it is 0.40.
         EXPECT_LT(figures.noise, samples == 1 ? 1.2 : 0.5) << samples;
+        EXPECT_GT(figures.mostNoise, 1.0) << samples;
         EXPECT_LT(figures.mostNoise, 1.15) << samples;
         EXPECT_LT(figures.ofReference, 0.1) << samples;
         if (samples == 1 || !isWholeSweep()) continue;

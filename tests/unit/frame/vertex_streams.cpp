@@ -1,5 +1,6 @@
 #include "renderer/frame/VertexStreams.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -80,6 +81,17 @@ TEST(VertexStreams, streamsThatNothingNeedsAreEmpty) {
     const FeatureSet textured = only({featureOf(scenes::TextureSlot::BaseColor)});
     EXPECT_EQ(makeVertexStreams(twoMeshes(), textured).texCoords[0].size(), 6u);
     EXPECT_TRUE(makeVertexStreams(twoMeshes(), textured).texCoords[1].empty());
+}
+
+TEST(VertexStreams, aPlanNamesThoseThatAreMade) {
+    for (const Feature feature : {Feature::Hook, Feature::SubsurfaceDiffusion, Feature::TexCoord1, Feature::VertexColor,
+                                  featureOf(scenes::TextureSlot::BaseColor)}) {
+        const VertexStreams made = makeVertexStreams(twoMeshes(), only({feature}));
+        const std::vector<std::string> names = streamNames(only({feature}));
+        EXPECT_EQ(std::ranges::count(names, "texture_coordinates_0") == 1, !made.texCoords[0].empty());
+        EXPECT_EQ(std::ranges::count(names, "texture_coordinates_1") == 1, !made.texCoords[1].empty());
+        EXPECT_EQ(std::ranges::count(names, "vertex_colors") == 1, !made.colors.empty());
+    }
 }
 
 TEST(VertexStreams, tangentsAreComputedExactlyForMeshesWithATangentSpaceMapAndNoneOfTheirOwn) {
