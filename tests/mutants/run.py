@@ -31,14 +31,14 @@ import time
 HERE = pathlib.Path(__file__).resolve().parent
 KILLERS = HERE / "killers.txt"
 MOST_SURVIVORS = 0.01
-SECONDS_A_SUITE = 240  # a fault may make a loop endless
+SECONDS_A_SUITE = 240  # a fault may cause an endless loop
 SECONDS_A_SLOW_SUITE = 1200
 INVALID = re.compile(r"shader cannot be compiled|program cannot be linked|error: ")
 
 # Every file of these has a row in suites.txt.
 DRAWN = ["shaders/lib/*.glsl", "renderer/*.cpp", "scenes/import/*.cpp", "validation/reference/*.cpp"]
 
-# What a line may become. Binary operators stand between blanks, as the sources are laid out.
+# Possible faults of a line. The source layout puts blanks around binary operators.
 OPERATORS = [(" + ", " - "), (" - ", " + "), (" * ", " / "), (" / ", " * "), (" < ", " <= "), (" <= ", " < "), (" > ", " >= "),
              (" >= ", " > "), (" == ", " != "), (" != ", " == "), (" && ", " || "), (" || ", " && "), (" & ", " | "),
              (" | ", " & "), (" >> ", " << "), (" << ", " >> "), (" += ", " -= "), ("min(", "max("), ("max(", "min(")]
@@ -58,7 +58,7 @@ def otherNumber(text):
     if not re.search(r"[.eE]", number):
         return str(int(number) + 1) + suffix
     other = f"{float(number) * 1.01:.9g}" if float(number) else "0.01"
-    return (other if re.search(r"[.e]", other) else other + ".0") + suffix # GLSL takes no 1 for a float
+    return (other if re.search(r"[.e]", other) else other + ".0") + suffix # GLSL floats need a decimal point
 
 
 def mutantsOfLine(line):
@@ -81,7 +81,7 @@ def mutantsOfLine(line):
 class Mutant:
     def __init__(self, path, number, what, before, after):
         self.path, self.number, self.what, self.before, self.after = path, number, what, before, after
-        self.name = ""  # its key, told apart from the same change to the same line elsewhere in the file
+        self.name = ""  # key(), numbered where the same change applies to equal lines of the file
 
     def key(self):
         return f"{self.path} | {codeOf(self.before)} | {codeOf(self.after)}"
@@ -176,7 +176,7 @@ def choose(mutants, seed):
     order = []
     for path, ofFile in byFile.items():
         ofFile.sort(key=lambda mutant: number(mutant.name))
-        # The share of a file is that of its mutants.
+        # Spreads each file's mutants evenly, so that any prefix holds files in proportion to their mutants.
         order += [((index + number(path) / 2**64) / len(ofFile), path, index) for index in range(len(ofFile))]
     return [byFile[path][index] for _, path, index in sorted(order)]
 
@@ -212,7 +212,7 @@ class Shaders:
             tree = pathlib.Path(folder) / "shaders"
             shutil.copytree(self.root / "shaders", tree)
             replaceLine(tree / pathlib.Path(mutant.path).relative_to("shaders"), mutant)
-            # Nearly all the time goes into compiling shaders: without LLVM's optimisations it halves.
+            # Compiling shaders takes nearly all the time; without LLVM's optimisations it takes half.
             environment = {"TESSERA_SHADERS": str(tree), "LP_NUM_THREADS": "1", "GALLIVM_PERF": "nopt"}
             return firstKiller(suites, lambda suite: runSuite(self.tests, suite, environment))
 
@@ -225,7 +225,7 @@ class Sources:
     def __init__(self, root):
         self.copy = root / "build/mutants/source"
         self.copy.mkdir(parents=True, exist_ok=True)
-        self.lock = open(self.copy.with_suffix(".lock"), "w")  # one run at a time has the copy
+        self.lock = open(self.copy.with_suffix(".lock"), "w")  # only one run at a time uses the copy
         fcntl.flock(self.lock, fcntl.LOCK_EX)
         files = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"], cwd=root, check=True, text=True,
                                stdout=subprocess.PIPE).stdout.split("\0")
@@ -264,7 +264,7 @@ class Sources:
 
         try:
             replaceLine(file, mutant)
-            if file.suffix == ".cpp":  # an index beyond a vector's end is to be seen, where the source is compiled on its own
+            if file.suffix == ".cpp":  # detects indices beyond a vector's end, if the source is compiled alone
                 file.write_text("#define _GLIBCXX_ASSERTIONS\n" + file.read_text())
             return firstKiller(suites, run)
         finally:
@@ -272,7 +272,7 @@ class Sources:
 
 
 def isShader(mutant):
-    return mutant.path.startswith("shaders/") and not mutant.path.endswith(".h")  # C++ includes those alone
+    return mutant.path.startswith("shaders/") and not mutant.path.endswith(".h")  # C++ includes only the .h files
 
 
 def replaceLine(file, mutant):
@@ -328,7 +328,7 @@ class Results:
 
     def add(self, mutant, killer):
         self.known[mutant.name] = {"killedBy": killer, "sources": self.sources}
-        with open(self.path.with_suffix(".lock"), "w") as lock:  # another run may know more by now
+        with open(self.path.with_suffix(".lock"), "w") as lock:  # another run may have added results
             fcntl.flock(lock, fcntl.LOCK_EX)
             self.write(json.loads(self.path.read_text()) if self.path.exists() else {}, mutant.name)
 
@@ -372,9 +372,9 @@ def main():
     print(f"{len(mutants)} faults are possible in {len(suitesOf)} files; trying {min(options.count, len(mutants))}", flush=True)
 
     lock = threading.Lock()
-    found = {}  # place in `candidates`: killer or None
+    found = {}  # index in `candidates`: killer or None
     taken = set()
-    state = {"limit": options.count, "sources": None, "compiling": False}  # each invalid one lets one more in
+    state = {"limit": options.count, "sources": None, "compiling": False}  # each invalid mutant raises the limit by one
 
     def take():
         """A place in `candidates`; None when nothing is left; -1 when all that is left waits for the compiler."""
