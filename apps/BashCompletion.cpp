@@ -7,7 +7,7 @@ namespace tessera::app {
 
 namespace {
 
-/// Which words the shell offers, as assignments to the script's variables.
+/// Completion candidates of a value, as assignments to the script's variables.
 std::string offers(const ValueText& value) {
     std::string text;
     if (!value.names.empty()) text += fmt::format(" names='{}'", fmt::join(value.names, " "));
@@ -17,12 +17,12 @@ std::string offers(const ValueText& value) {
     return text;
 }
 
-/// 'a' | 'b': a pattern of case.
+/// Pattern of a shell `case`: a | b.
 std::string casePattern(const std::vector<std::string>& names) {
     return fmt::format("{}", fmt::join(names, " | "));
 }
 
-/// The words of one command, as a row of the script's case; without an option before them those of `operand`.
+/// Branch of the script's `case` for one command: its options, their values, and the values of `operand`.
 std::string bashRow(const std::string& name, const std::vector<OptionText>& options, const ValueText& operand) {
     std::vector<std::string> all;
     for (const OptionText& option : options) all.insert(all.end(), option.names.begin(), option.names.end());
@@ -95,7 +95,7 @@ std::string bashCompletion(const ProgramText& text) {
     script += bashRow("help", {}, commands);
     commands.names.emplace_back("help");
     script += bashRow("", text.program.options, commands);
-    for (const CommandText& command : text.commands) // a command takes one operand, or several of a kind
+    for (const CommandText& command : text.commands) // all operands of a command are of one kind
         script += bashRow(command.name, optionsAfter(text, command),
                           command.operands.empty() ? ValueText() : command.operands.front().value);
     return script + kBashTail;

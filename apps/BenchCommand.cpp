@@ -59,7 +59,7 @@ void write(const Outputs& outputs, const std::string& folder, const validation::
     outputs.write(folder + kReport, validation::reportHtml(validation::benchReport(record, folder)));
 }
 
-/// The program's exit code for what was measured.
+/// Exit code of the measurements: kToleranceMissed if culling missed lights that pixels need.
 int verdict(const validation::BenchRecord& record) {
     for (const validation::BenchGroup& group : record.groups) {
         for (const validation::BenchResult& result : group.results) {
@@ -78,7 +78,7 @@ int finish(const Outputs& outputs, const std::string& folder, const validation::
     return verdict(record);
 }
 
-/// A page of all machines, and one of each.
+/// Writes a report on all machines and one per machine.
 int mergeMachines(const BenchCommandOptions& options, const std::vector<std::vector<std::string>>& shardsOfMachines) {
     Outputs outputs({options.folder + kReport, options.folder + kMachines});
     const auto folderOf = [&](std::size_t i) { return validation::machineFolder(options.folder, i); };

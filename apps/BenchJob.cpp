@@ -34,8 +34,8 @@ std::optional<validation::BenchTruth> benchTruthNamed(const std::string& name) {
         fmt::format("--against '{}' is nothing that bench measures against: {}", name, suggestNames(name, names)));
 }
 
-/// Everything that will be measured; names, and files against the outputs, are checked for every scene before the first
-/// frame is drawn.
+/// Plans the measurements of all scenes. Names, and input files against the outputs, are checked before the first frame
+/// is drawn.
 validation::BenchPlan planOfJob(const BenchJobOptions& options, validation::BenchMatrix matrix,
                                 const std::function<void(const std::vector<std::string>&)>& reads) {
     if (const auto technique = options.frame.said("technique"); technique && matrix.techniques.empty())

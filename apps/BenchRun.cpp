@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char *kJson = "/bench.json", *kCsv = "/bench.csv";
 
-/// The scene of a group. Hours may lie between the plan and this, and its file may have been edited since.
+/// Loads the scene of a group. Throws InputError if its file was edited since the plan was made, maybe hours ago.
 scenes::Scene loadAsPlanned(const BenchRun& run, const validation::PlannedGroup& group) {
     scenes::Scene scene = run.load(group);
     if (scenes::fingerprint(scene) == group.fingerprint) return scene;

@@ -8,7 +8,7 @@
 
 namespace tessera::app {
 
-/// A benchmark to run, or to go on with.
+/// A benchmark to run or resume.
 struct BenchRun {
     validation::BenchPlan plan;
     validation::BenchOptions options; ///< keep and keepPicture are set by measureMissing()
@@ -17,21 +17,21 @@ struct BenchRun {
     std::function<void(const validation::BenchRecord&)> write;
 };
 
-/// Which technique to take is a question of the lit picture alone: throws InputError for a debug view.
+/// Throws InputError for a debug view: recommendations hold for the lit image only.
 void requireLitPicture(const frame::FrameSettings& settings, const char* command);
 
-/// How many steps of BenchOptions::progress the missing groups take.
+/// Number of BenchOptions::progress steps of the missing groups.
 std::size_t stepsOf(const gpu::Capabilities& gl, const validation::BenchStore& store, const BenchRun& run);
 /// Measures missing groups, saves them in the store, and returns the store's contents. Throws InputError if a scene has
 /// changed since the plan was made.
 validation::BenchRecord measureMissing(gpu::Context& context, const validation::BenchStore& store, BenchRun run);
 
-/// The same with a progress bar.
+/// measureMissing() with a progress bar.
 validation::BenchRecord runBench(gpu::Context& context, const validation::BenchStore& store, BenchRun run, bool quiet);
 
-/// Tells the outputs what a benchmark writes into its folder: bench.json, bench.csv, and the files of BenchStore.
+/// Registers the outputs of a benchmark in its folder: bench.json, bench.csv, and the files of BenchStore.
 void addBenchFiles(const std::string& folder, Outputs& outputs);
-/// bench.json and bench.csv of a record.
+/// Writes a record as bench.json and bench.csv.
 void writeBenchFiles(const Outputs& outputs, const std::string& folder, const validation::BenchRecord& record);
 
 } // namespace tessera::app

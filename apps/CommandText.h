@@ -5,16 +5,16 @@
 
 #include <CLI/CLI.hpp>
 
-/// What the program's own table of commands and options says, in the form from which the manual page and the shells'
-/// completion are made: whatever --help tells they tell too.
+/// Commands and options of the program as text. The manual page and the shell completions are generated from it, so
+/// they match --help.
 namespace tessera::app {
 
-/// What can stand for an option's value or an operand.
+/// Possible values of an option or operand.
 struct ValueText {
-    std::vector<std::string> names{}; ///< words to offer; empty where there are none, or none that are known beforehand
-    bool isFile = false;              ///< or any file
-    bool isFolder = false;            ///< or any folder
-    bool isList = false;              ///< several of the names, with commas between them
+    std::vector<std::string> names{}; ///< keywords to offer; empty if there are none, or they are not known beforehand
+    bool isFile = false;              ///< accepts any file
+    bool isFolder = false;            ///< accepts any folder
+    bool isList = false;              ///< comma-separated list of names
 };
 
 /// An option, or an operand, which has no names.
@@ -35,21 +35,21 @@ struct CommandText {
     std::string help;                ///< a sentence
     std::string usage;               ///< "tessera render SCENE -o FILE [options]"
     std::string footer;              ///< examples: lines that begin with two spaces
-    std::vector<OptionText> options; ///< its own, in the order of --help
+    std::vector<OptionText> options; ///< without the program's, in the order of --help
     std::vector<OptionText> operands;
 };
 
 struct ProgramText {
-    CommandText program; ///< its options may also stand after a command, but for --version
+    CommandText program; ///< its options are also accepted after a command, except --version
     std::vector<CommandText> commands;
 };
 
-/// The heading of options that CLI11 gives no other.
+/// CLI11's default heading of options.
 inline constexpr std::string_view kPlainGroup = "Options";
 
 ProgramText programText(const CLI::App& app);
 
-/// The options that may stand after `command`: its own, and those of the program but for its --help and --version.
+/// The options accepted after `command`: its local ones and the program's, except the program's --help and --version.
 std::vector<OptionText> optionsAfter(const ProgramText& text, const CommandText& command);
 
 } // namespace tessera::app

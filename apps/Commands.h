@@ -3,8 +3,8 @@
 
 #include "apps/Options.h"
 
-/// The program's commands. Each adds itself to the command line with its help and leaves its work in `run`, which
-/// main() calls once the line is parsed; the result is the exit code.
+/// The program's commands. Each registers itself and its help with CLI11 and stores its work in `run`. main() calls
+/// `run` after parsing; its result is the exit code.
 namespace tessera::app {
 
 using Run = std::function<int()>;
@@ -17,7 +17,7 @@ void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addStressCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addViewCommand(CLI::App& app, const GlobalOptions& global, Run& run);
 void addDemoCommand(CLI::App& app, const GlobalOptions& global, Run& run);
-/// What tells of all commands, those that are added later too.
+/// These describe all commands, including those added later.
 void addCompletionCommand(CLI::App& app, Run& run);
 void addManualCommand(CLI::App& app, Run& run);
 

@@ -18,7 +18,7 @@ namespace tessera::app {
 
 namespace {
 
-/// Of the maps of the relative error and of FLIP.
+/// File suffixes of the relative-error map and the FLIP map.
 constexpr const char* kMapExtensions[] = {".png", "_flip.png"};
 
 struct CompareOptions : ComparisonOptions {
@@ -29,7 +29,7 @@ std::string mapFile(const CompareOptions& options, const std::string& picture, c
     return (std::filesystem::path(options.heatMaps) / pictureFile(picture, extension)).string();
 }
 
-/// Of each picture that will be compared.
+/// Registers the heat maps of each compared image.
 void addHeatMaps(const CompareOptions& options, const std::vector<std::string>& pictures, Outputs& outputs) {
     for (const std::string& picture : pictures)
         for (const char* extension : kMapExtensions) outputs.add(mapFile(options, picture, extension));

@@ -32,7 +32,7 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
     return parts;
 }
 
-/// A technique's name, the reference, or the path of a picture that exists, which is not read yet.
+/// Parses a truth: a technique's name, the reference, or the path of an existing image, which is not read yet.
 validation::Truth truthNamed(const std::string& name) {
     if (name == kReferenceName) return validation::Reference{};
     std::vector<std::string_view> names{kReferenceName};
@@ -45,7 +45,7 @@ validation::Truth truthNamed(const std::string& name) {
                                  suggestNames(name, names)));
 }
 
-/// What the scene holds is in use already: one limit for all that a command reads.
+/// Reads an image. The scene counts against the same memory limit.
 Picture readBeside(const scenes::Scene& scene, const std::string& path, const FrameOptions& options) {
     const scenes::LoadOptions load = loadOptionsOf(options);
     scenes::LoadLedger ledger(load.memoryLimitBytes, load.import);
@@ -55,7 +55,7 @@ Picture readBeside(const scenes::Scene& scene, const std::string& path, const Fr
     return picture;
 }
 
-/// Those asked for; else all but the truth that take the settings, the others to `leftOut`.
+/// The requested techniques; by default all that support the settings, except the truth. Sets `leftOut` to the rest.
 std::vector<engine::Technique> techniquesOf(const ComparisonOptions& options, const validation::Truth& against,
                                             const frame::FrameSettings& settings,
                                             std::vector<validation::LeftOutTechnique>& leftOut) {
@@ -113,9 +113,9 @@ Comparison comparisonOf(const ComparisonOptions& options, const Request& request
     compare.techniques = techniquesOf(options, compare.against, request.settings, comparison.leftOut);
     if (std::holds_alternative<validation::Reference>(compare.against)) {
         validation::requireReferenceTakes(compare.settings);
-        // Hardware filtering would hide the compared differences; it gets a pair of its own.
+        // Hardware filtering would hide the compared differences; it is compared in a separate pair.
         if (!options.frame.said("filter")) compare.settings.filter = frame::TextureFilter::Exact;
-        // The reference shows the map as it is; a blurred one is a matter of taste, not of light.
+        // The reference shows the unblurred map; the blur is an aesthetic choice, not a lighting difference.
         if (compare.settings.environment.backdrop == frame::Backdrop::Blurred)
             compare.settings.environment.backdrop = frame::Backdrop::Sharp;
     }

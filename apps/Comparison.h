@@ -8,33 +8,32 @@
 
 namespace tessera::app {
 
-/// What of the options of `tessera compare` its figures depend on.
+/// Options of `tessera compare` that affect its figures.
 struct ComparisonOptions {
     FrameOptions frame;
-    std::string techniques; ///< names, with commas between; empty: all that take the settings
+    std::string techniques; ///< comma-separated names; empty: all that support the settings
     std::string against = "forward";
 };
 
-/// The truth that the options name; a picture that exists is not read yet. Throws InputError, also where the techniques
-/// are named twice: what can be found without the scene.
+/// The truth named by the options; an existing image is not read yet. Throws InputError for errors found without the
+/// scene, such as both --technique and --techniques.
 validation::Truth truthOf(const ComparisonOptions& options);
 
-/// A comparison of which everything is checked.
+/// A validated comparison.
 struct Comparison {
     validation::CompareRequest request;
     std::vector<validation::LeftOutTechnique> leftOut;
 };
 
-/// The comparison that the options ask for, with the resolved request; reads the truth where it is a picture. Throws
-/// InputError.
+/// Makes the comparison of the options and the resolved request. Reads the truth if it is an image. Throws InputError.
 Comparison comparisonOf(const ComparisonOptions& options, const Request& request, validation::Truth truth);
 
-/// Warns of what the pictures lack by the settings and the scene alone, and of a truth that means little.
+/// Warns of settings without effect, missing shadows, undiffused subsurface irradiance, and an integer image as truth.
 void warnOfComparison(const ComparisonOptions& options, const Request& request, const Comparison& comparison);
-/// Warns of what they lack on that driver.
+/// Warns of textures dropped because of the driver's limits.
 void warnOfDriver(const gpu::Capabilities& gl, const Request& request, const Comparison& comparison);
 
-/// validation::compareTechniques(), with what was left out.
+/// validation::compareTechniques(); its record also lists the left-out techniques.
 validation::CompareResult runComparison(engine::Renderer& renderer, const gpu::Capabilities& gl,
                                         const Comparison& comparison);
 

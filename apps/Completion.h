@@ -5,8 +5,7 @@
 
 #include "apps/CommandText.h"
 
-/// Completion of the command line by a shell: a script that holds every command, option and name that the program takes
-/// and does not start the program.
+/// Shell completion scripts. They contain every command, option and keyword, so completion does not start the program.
 namespace tessera::app {
 
 std::string bashCompletion(const ProgramText& text);

@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kFrames = 5;
-/// Of the measured picture. A software rasteriser lights them by 258 lights in half a second with the slowest
-/// technique.
+/// Pixel limit of the measured image. A software rasteriser shades them with 258 lights in half a second with the
+/// slowest technique.
 constexpr double kMostPixels = 240.0 * 135.0;
 constexpr std::size_t kLayouts = 2; ///< rows of frame::layoutTable(): the exact layout and the packed one
 
@@ -68,7 +68,7 @@ validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest&
                                                        shellWord(demo.options.scene), frameOptionText(shown), kFrames)};
     const std::string folder = demoBenchFolder(demo.folder);
     makeFolder(folder);
-    // An older demonstration that was interrupted is of no use.
+    // Replaces the results of an earlier demo.
     const validation::BenchStore store(folder, identity, run.plan, validation::EarlierRun::Replace);
     run.load = [&demo](const validation::PlannedGroup&) { return demo.request.scene; };
     run.write = [&](const validation::BenchRecord& record) { writeBenchFiles(demo.outputs, folder, record); };

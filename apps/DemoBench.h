@@ -12,13 +12,13 @@ struct DemoBenchRequest {
     const FrameOptions& options;
     const Request& request;
     std::vector<engine::Technique> techniques;
-    std::string folder; ///< of the demonstration
+    std::string folder; ///< output folder of the demo
     const Outputs& outputs;
     bool quiet = false;
 };
 
-/// Measures error against run time of the demonstration's scene: the techniques in two layouts, in a small picture, so
-/// that it stays short. Writes into demoBenchFolder().
+/// Measures error against run time for the demo's scene: the techniques in two layouts, at a small image size to stay
+/// short. Writes into demoBenchFolder().
 validation::BenchRecord demoBench(gpu::Context& context, const DemoBenchRequest& demo);
 
 std::string demoBenchFolder(const std::string& folder);

@@ -38,7 +38,7 @@ constexpr int kTimedFrames = 3;
 constexpr Technique kShown[] = {Technique::Forward, Technique::TiledDeferred, Technique::ForwardPlus,
                                 Technique::ClusteredDeferred};
 
-/// What shows the packed layout: the fastest of kShown that has a G-buffer.
+/// Technique that shows the packed layout: the fastest of kShown with a G-buffer.
 constexpr Technique kPacked = Technique::TiledDeferred;
 
 struct DemoOptions {
@@ -46,15 +46,15 @@ struct DemoOptions {
     std::string folder = "out";
 };
 
-/// What a demonstration found.
+/// Results of a demo.
 struct DemoResult {
     CompareResult comparison;
     std::vector<Technique> techniques;
-    std::optional<validation::BenchRecord> bench; ///< of frames with one sample per pixel
-    std::vector<double> ms;                       ///< by technique, where there is no bench
+    std::optional<validation::BenchRecord> bench; ///< only with one sample per pixel
+    std::vector<double> ms;                       ///< per technique, only without a bench
     std::string choice;
-    std::vector<Png> pictures; ///< of the comparison: the truth, then its pictures
-    std::vector<Png> heatMaps; ///< of its pictures
+    std::vector<Png> pictures; ///< of the comparison: the truth, then the compared images
+    std::vector<Png> heatMaps; ///< per compared image
 };
 
 std::string choiceOf(const std::vector<Technique>& techniques, const std::vector<double>& ms, bool agree) {
@@ -67,8 +67,7 @@ std::string choiceOf(const std::vector<Technique>& techniques, const std::vector
                        agree ? "the same picture" : "beware: the pictures do not agree");
 }
 
-/// What gives the figures of the page again. `source` is the scene as it was named: its own name is the file's to
-/// choose.
+/// Commands that reproduce the page's figures. `source` is the scene argument; the scene's name may differ from it.
 std::vector<std::string> commandsOf(const std::string& source, const frame::FrameSettings& settings) {
     const std::string frame =
         fmt::format("{} --size {}x{}", shellWord(source), settings.sizePixels.x, settings.sizePixels.y);
@@ -79,7 +78,7 @@ std::vector<std::string> commandsOf(const std::string& source, const frame::Fram
     return {"tessera compare " + frame, "tessera compare " + frame + " --layout packed", "tessera plan " + frame};
 }
 
-/// The benchmark's part of the page. Its pictures are the comparison's, seen smaller, and left out.
+/// Adds the benchmark's part of the page. Its images are smaller versions of the comparison's and are left out.
 void addBench(validation::Report& report, const DemoResult& result) {
     const validation::BenchGroup* headline = validation::headlineGroup(*result.bench);
     report.bench = validation::benchHtml(*result.bench, *headline, {});
@@ -113,7 +112,7 @@ validation::Report makeReport(const std::string& source, const Request& request,
     report.pictures.push_back({truth, "the truth of every pair", result.pictures[0]});
     for (std::size_t i = 0; i < comparison.pictures.size(); ++i) {
         const std::string& name = comparison.pictures[i].name;
-        if (validation::showsNoError(comparison.record.pairs[i].figures)) continue; // the truth shows the same
+        if (validation::showsNoError(comparison.record.pairs[i].figures)) continue; // identical to the truth
         report.pictures.push_back({name, "", result.pictures[i + 1]});
         report.heatMaps.push_back({name, truth, result.heatMaps[i]});
     }
@@ -122,7 +121,7 @@ validation::Report makeReport(const std::string& source, const Request& request,
     return report;
 }
 
-/// Paths of the demonstration's outputs.
+/// Paths of the demo's outputs.
 struct DemoFiles {
     fs::path folder;
 
@@ -137,7 +136,7 @@ validation::CompareRequest comparisonOf(const Request& request, const std::vecto
     validation::CompareRequest comparison;
     comparison.techniques.assign(techniques.begin() + 1, techniques.end());
     comparison.settings = request.settings;
-    // A G-buffer, and with it a layout to compare, there is only with one sample per pixel.
+    // Layouts need a G-buffer, which exists only with one sample per pixel.
     if (request.settings.samples == 1) comparison.layouts = {{kPacked, &frame::layoutTable()[1]}};
     comparison.channelShares = false; // the benchmark measures the causes of error
     return comparison;

@@ -3,7 +3,7 @@
 
 namespace tessera::app {
 
-/// Writes "tessera: TEXT" as one line (oneLine()) to stderr. A failure is ignored: there is no other place to tell it.
+/// Writes "tessera: TEXT" as one line (oneLine()) to stderr. Write errors are ignored: nothing else could report them.
 void printProblem(std::string_view text);
 
 } // namespace tessera::app

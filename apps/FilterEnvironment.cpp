@@ -17,7 +17,7 @@ void filterEnvironment(const Request& request, engine::Renderer& renderer, bool 
     std::once_flag begun;
     std::optional<Progress> progress;
     std::atomic<std::size_t> done = 0;
-    const auto advance = [&](double share) { // only where the map is not in the cache
+    const auto advance = [&](double share) { // called only if the map is not in the cache
         std::call_once(begun, [&] {
             if (!quiet) printProblem("note: filtering the environment, once for each map: that takes seconds");
             progress.emplace("filtering the environment", kSteps, quiet);

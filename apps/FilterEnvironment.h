@@ -4,9 +4,9 @@
 
 namespace tessera::app {
 
-/// Filters the environment beforehand where frames of the request look it up, and hands it to the renderer. This takes
-/// seconds the first time that a map is used. Unless `quiet`, a line on stderr says so before it begins, and a progress
-/// bar follows where that is a terminal.
+/// Prefilters the environment if frames of the request sample it, and passes it to the renderer. This takes seconds for
+/// a map that is not in the cache. Unless `quiet`, prints a note on stderr first, and a progress bar if stderr is a
+/// terminal.
 void filterEnvironment(const Request& request, engine::Renderer& renderer, bool quiet);
 
 } // namespace tessera::app

@@ -7,7 +7,7 @@
 namespace tessera::app {
 namespace {
 
-/// Tiles and clusters answer input several times sooner than looping over all lights does.
+/// Tiled and clustered techniques respond to input several times sooner than a loop over all lights.
 constexpr engine::Technique kFirstTechnique = engine::Technique::ClusteredDeferred;
 
 /// The options, with remembered values where neither they nor the scene's file set one.
@@ -39,7 +39,7 @@ viewer::FirstLook firstLook(const FrameOptions& said, const viewer::Preferences&
     request.scene.name = scene.name;
     request.scene.options = scene.options;
     request.scene.cameras = scene.cameras;
-    request.scene.lights.resize(scene.lights.size()); // their number is all that is asked
+    request.scene.lights.resize(scene.lights.size()); // only their number is used
     if (!options.said("technique")) request.technique = kFirstTechnique;
     resolveForScene(options, request);
     return {viewer::possible({request, {}}), options.pose};
@@ -48,7 +48,7 @@ viewer::FirstLook firstLook(const FrameOptions& said, const viewer::Preferences&
 FrameOptions forAnyScene(FrameOptions said) {
     for (const engine::Setting& setting : engine::settingTable())
         if (setting.isOfScene) said.settings.erase(std::string(setting.key));
-    // Its environment is turned and brightened as that command says; files that were saved of it have that already.
+    // Rotation and intensity apply to the first scene's environment only; files saved from it already contain them.
     for (const std::string_view key : scenes::kEnvironmentViewKeys) said.settings.erase(std::string(key));
     said.defaultCamera = false;
     said.pose = {};

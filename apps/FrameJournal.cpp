@@ -78,13 +78,13 @@ FrameJournal::FrameJournal(const FramePattern& pattern, const Shard& shard) : fi
 }
 
 bool FrameJournal::isFinished(const std::string& path, std::uint64_t settings) const {
-    // Without a line that may be the file's, the file is not read.
+    // Reads the file only if a line has these settings.
     const auto near = lines_.lower_bound(beginningOfLine(settings));
     if (near == lines_.end() || !near->starts_with(beginningOfLine(settings))) return false;
     try {
         scenes::LoadLedger ledger;
         return lines_.contains(lineOf(path, settings, scenes::readFileBytes(path, ledger)));
-    } catch (const InputError&) { // missing, or no regular file
+    } catch (const InputError&) { // missing, or not a regular file
         return false;
     }
 }

@@ -9,30 +9,30 @@
 
 namespace tessera::app {
 
-/// Which frames of a sequence are finished, and of which settings: a text file beside them, to which a line is appended
-/// when a frame's file is whole. A line holds a number for all that the picture depends on, one for the file's bytes,
-/// and the file's name. So a run may be killed at any time, and a file that was cut off, changed or replaced since is
-/// no finished frame. A shard appends to a file of its own and reads those of the others.
+/// Journal of the finished frames of a sequence: a text file beside them, with one line per completely written frame. A
+/// line holds a hash of all inputs of the image, a hash of the file's bytes, and the file's name. A run may therefore
+/// be killed at any time, and truncated, changed or replaced files do not count as finished. A shard appends to its own
+/// journal and reads those of the others.
 class FrameJournal {
 public:
-    /// Reads what the journals of these frames hold. Throws InputError where one cannot be read.
+    /// Reads all journals of these frames. Throws InputError if one cannot be read.
     FrameJournal(const FramePattern& pattern, const Shard& shard);
 
-    /// Where the journal of a shard is: for f_%04d.png f_frames.png.txt, of shard 2/4 f_frames.png.2of4.txt.
+    /// Path of a shard's journal: f_frames.png.txt for f_%04d.png, f_frames.png.2of4.txt for its shard 2/4.
     static std::string fileOf(const FramePattern& pattern, const Shard& shard);
 
-    /// Throws what add() would throw for the place alone, before the work is done in vain.
+    /// Throws early if the journal cannot be written.
     static void requireWritable(const FramePattern& pattern, const Shard& shard);
 
-    /// Whether the file of that path is there as these settings made it.
+    /// Whether the file exists, unchanged since it was written with these settings.
     bool isFinished(const std::string& path, std::uint64_t settings) const;
-    /// To be called when the file is written. Throws std::runtime_error where the journal cannot be.
+    /// Records a written file. Throws std::runtime_error if the journal cannot be written.
     void add(const std::string& path, std::uint64_t settings, std::span<const std::uint8_t> bytes);
 
 private:
     std::string file_;
     std::set<std::string> lines_;
-    bool endsWithinLine_ = false; ///< the last line of the shard's own file was cut off
+    bool endsWithinLine_ = false; ///< the last line of the shard's journal was cut off
 };
 
 } // namespace tessera::app

@@ -6,7 +6,7 @@
 
 namespace tessera::app {
 
-/// The options that were given, as they would be typed: " --size 640x360 --time 2". Empty where none was.
+/// The given options as command-line text: " --size 640x360 --time 2". Empty if there are none.
 std::string frameOptionText(const FrameOptions& options);
 
 using viewer::shellWord;

@@ -5,17 +5,17 @@
 
 namespace tessera::app {
 
-/// A path whose file name has one place for a frame number: %d, or %04d for at least four digits. Names of folders are
-/// taken as they are.
+/// A path with one frame-number placeholder in its file name: %d, or %04d for at least four digits. Folder names are
+/// taken literally.
 class FramePattern {
 public:
-    /// Throws InputError when the file name has no such place, more than one, or another %.
+    /// Throws InputError if the file name has no placeholder, more than one, or another %.
     explicit FramePattern(const std::string& pattern);
-    /// Whether the name of a file has a part that can hardly be anything else.
+    /// Whether a file name contains what is almost certainly a placeholder.
     static bool hasPlace(const std::filesystem::path& file);
     /// `frame` is 0 or more.
     std::string path(int frame) const;
-    /// With a word in the number's place: the name of what belongs to all frames.
+    /// The path with a word in place of the number, for files that belong to all frames.
     std::string pathWith(std::string_view word) const { return before_ + std::string(word) + after_; }
 
 private:

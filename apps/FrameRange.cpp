@@ -12,7 +12,7 @@ namespace tessera::app {
 
 namespace {
 
-/// The whole numbers between colons, at most three; empty where the text is anything else.
+/// Parses at most three integers separated by colons; empty for any other text.
 std::vector<int> numbersBetweenColons(const std::string& text) {
     std::vector<int> numbers;
     const char* at = text.data();

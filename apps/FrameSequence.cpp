@@ -26,7 +26,7 @@ std::vector<std::string> FrameSequence::outputs() const {
 }
 
 void FrameSequence::requireWritable() const {
-    if (!frames_.empty()) { // the others lie beside them, and have no longer names than the last
+    if (!frames_.empty()) { // the others are in the same folder, with names no longer than the last
         tessera::requireWritable(pattern_.path(frames_.front()));
         tessera::requireWritable(pattern_.path(frames_.back()));
     }
@@ -52,7 +52,7 @@ std::string FrameSequence::framesBehindClip(const frame::FrameSettings& settings
                        clipSeconds_);
 }
 
-/// A number for all that a picture depends on. The same time has the same text.
+/// Hash of all inputs of an image. Equal times have equal text.
 std::uint64_t FrameSequence::settingsOf(double timeSeconds) const {
     const std::string text = fmt::format("{}time {}", depends_, timeSeconds);
     return scenes::fingerprint(std::as_bytes(std::span(text)));

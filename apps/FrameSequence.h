@@ -14,45 +14,45 @@
 
 namespace tessera::app {
 
-/// Makes the bytes of a picture's file, of a path that messages name.
+/// Renders and encodes an image file; messages name `path`.
 using MakePicture =
     std::function<std::vector<std::uint8_t>(const std::string& path, const frame::FrameSettings& settings)>;
 
-/// What a sequence of pictures is, as the command line says it.
+/// Options of an image sequence, as given on the command line.
 struct FrameSequenceOptions {
     std::string pattern;
     FrameRange range;
     double framesPerSecond = 30.0; ///< of scene time
     Shard shard;
-    bool repeatsClip = false; ///< time begins again at the end of the clip that plays
+    bool repeatsClip = false; ///< time wraps at the end of the active clip
 };
 
-/// Pictures in numbered files: frame k shows the time of the request + k / framesPerSecond seconds, less whole lengths
-/// of the clip that plays where that is repeated. A shard has every Nth. Frames that are finished already, by an
-/// earlier run of the same request, are not made again.
+/// Images in numbered files. Frame k shows the request's time + k / framesPerSecond seconds, modulo the length of the
+/// active clip if that repeats. A shard has every Nth frame. Frames finished by an earlier run of the same request are
+/// skipped.
 class FrameSequence {
 public:
-    /// Throws InputError for a pattern without one place for a number.
+    /// Throws InputError for a pattern without exactly one frame-number placeholder.
     explicit FrameSequence(const FrameSequenceOptions& options);
 
-    /// The length of the clip that plays, 0 where none has any. To be called before all that looks at times.
+    /// Sets the length of the active clip; 0: none plays, or only poses. Call before any function that uses times.
     void takeClip(double lengthSeconds) { clipSeconds_ = lengthSeconds; }
-    /// "frames 31 to 89 lie behind the clip's end at 1.04 s, ..." of the whole range; empty where there are none, or
-    /// the clip is repeated.
+    /// "frames 31 to 89 lie behind the clip's end at 1.04 s, ..." for the whole range; empty if none do, or the clip
+    /// repeats.
     std::string framesBehindClip(const frame::FrameSettings& settings) const;
 
-    /// The files that are written here: the shard's frames and its journal.
+    /// The files that draw() writes: the shard's frames and its journal.
     std::vector<std::string> outputs() const;
-    /// Throws std::runtime_error where they cannot be.
+    /// Throws std::runtime_error if the outputs cannot be written.
     void requireWritable() const;
 
-    /// Finds the frames that are finished, to be called before draw(). `maker` says what pictures depend on besides the
-    /// request and its scene: the program, the renderer. Throws InputError where a frame's time is not finite.
+    /// Skips finished frames; call before draw(). `maker` identifies the other inputs of images besides the request and
+    /// its scene: the program and the renderer. Throws InputError if a frame's time is not finite.
     void leaveOutFinished(const engine::ViewRequest& request, const scenes::Scene& scene, const std::string& maker);
-    /// How many are to be made.
+    /// Number of frames to draw.
     std::size_t unfinished() const { return unfinished_.size(); }
-    /// Makes and writes them, in the order of their numbers. Throws what `make` does, and std::runtime_error where a
-    /// file cannot be written.
+    /// Draws and writes the unfinished frames in ascending order. Throws what `make` throws, and std::runtime_error if
+    /// a file cannot be written.
     void draw(const Outputs& outputs, const frame::FrameSettings& settings, const MakePicture& make);
 
     /// "90 frames: 60 drawn, 30 skipped (finished already), median 12.3 ms"
@@ -64,11 +64,11 @@ private:
 
     FrameSequenceOptions options_;
     FramePattern pattern_;
-    double clipSeconds_ = 0.0; ///< 0: no clip plays, or only poses do
+    double clipSeconds_ = 0.0; ///< 0: no clip plays, or only poses
     std::vector<int> frames_, unfinished_;
-    std::string depends_; ///< on what a picture does besides its time, as text
+    std::string depends_; ///< all inputs of an image except its time, as text
     std::optional<FrameJournal> journal_;
-    std::vector<double> ms_; ///< by frame that was made
+    std::vector<double> ms_; ///< per drawn frame
 };
 
 } // namespace tessera::app

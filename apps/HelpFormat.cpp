@@ -22,7 +22,7 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t columns) {
 }
 
 std::string entry(const std::string& name, const std::string& description) {
-    const bool fits = name.size() + 4 <= kNameColumns; // 4: the indent and the least gap
+    const bool fits = name.size() + 4 <= kNameColumns; // 4: the indent and the minimum gap
     std::string text = fits ? "" : fmt::format("  {}\n", name);
     std::string head = fits ? name : "";
     for (const std::string& line : wrapped(description, kColumns - kNameColumns)) {

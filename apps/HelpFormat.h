@@ -6,11 +6,11 @@
 
 namespace tessera::app {
 
-/// Lays help out for people: required arguments are in the usage line, descriptions are wrapped, and a command's help
-/// also lists the options of the program itself.
+/// Help formatter: required arguments are in the usage line, descriptions are wrapped, and a command's help also lists
+/// the program's options.
 std::shared_ptr<CLI::Formatter> helpFormat();
 
-/// "tessera render SCENE -o FILE [options]" for the command, or the program, that is called `name`.
+/// Usage line of the command or program called `name`: "tessera render SCENE -o FILE [options]".
 std::string usageOf(const CLI::App& app, const std::string& name);
 
 } // namespace tessera::app

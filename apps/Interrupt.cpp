@@ -9,10 +9,10 @@ namespace tessera::app {
 
 namespace {
 
-/// Makes only async-signal-safe calls. SA_RESETHAND has put the signal's own action back; the raised signal waits for
-/// the return, then ends the program.
+/// Makes only async-signal-safe calls. SA_RESETHAND has restored the default action; the raised signal is delivered
+/// after the return and ends the program.
 void cleanUpAndEnd(int signal) {
-    if (noteEnd(signal)) return; // whoever holds the end back ends the program soon; a second signal ends it at once
+    if (noteEnd(signal)) return; // the holder ends the program soon; a second signal ends it at once
     removeTemporaries();
     std::raise(signal);
 }
@@ -20,9 +20,9 @@ void cleanUpAndEnd(int signal) {
 } // namespace
 
 void cleanUpWhenInterrupted() {
-    // A file that outgrows its limit fails the write, as a full disk does, instead of ending the program.
+    // Exceeding the file size limit then fails the write, like a full disk, instead of ending the program.
     std::signal(SIGXFSZ, SIG_IGN);
-    // A closed stderr must not lose the picture. endAsByClosedPipe() handles a closed stdout.
+    // A closed stderr must not lose the image. endAsByClosedPipe() handles a closed stdout.
     std::signal(SIGPIPE, SIG_IGN);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
         struct sigaction old {};

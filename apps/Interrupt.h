@@ -2,9 +2,9 @@
 
 namespace tessera::app {
 
-/// From now on a signal that ends the program (Ctrl-C, a closed terminal, kill) first removes the files that are not
-/// written whole. The program then ends by that signal, so that a shell sees why. Where the end is held (holdEnd()),
-/// who holds it does that.
+/// Installs handlers for terminating signals (Ctrl-C, a closed terminal, kill) that first remove partially written
+/// files. The program then ends by that signal, so that a shell sees the cause. While termination is deferred
+/// (holdEnd()), the caller of holdEnd() does both.
 void cleanUpWhenInterrupted();
 
 /// Ends the program by SIGPIPE, like a program whose output pipe was closed. cleanUpWhenInterrupted() keeps

@@ -75,7 +75,7 @@ constexpr std::array kLoadKeywords{
                    [](const KeywordValue& value, FrameOptions& options) { options.pose.farMetres = value.number; }},
 };
 
-/// Where a flag may begin: behind nothing, a space or an opening bracket.
+/// Whether a flag begins at `at`: at the start of the message, or after a space or an opening bracket.
 bool beginsFlag(std::string_view message, std::size_t at) {
     const bool isBehind = at == 0 || message[at - 1] == ' ' || message[at - 1] == '(';
     return isBehind && message.substr(at).starts_with("--") && at + 2 < message.size() &&

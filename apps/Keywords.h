@@ -5,21 +5,21 @@
 
 #include "apps/Request.h"
 
-/// The options of a frame as keywords of a script. A keyword is a flag of the command line in words: "--cull-on" is
+/// Frame options as keywords of scripts. A keyword is a command-line flag written as an identifier: "--cull-on" is
 /// cull_on.
 namespace tessera::app {
 
 /// The keyword of a flag: "--range-tolerance" is "range_tolerance".
 std::string keywordOf(std::string_view flag);
 
-/// A message in which every flag is the keyword: "check --eye" is "check eye". Names of files and quoted words stay,
-/// and so does "--" within a word.
+/// Replaces the flags in a message by keywords: "check --eye" becomes "check eye". File names, quoted words and "--"
+/// within a word are kept.
 std::string withKeywords(std::string_view message);
 
-/// What an option that is no setting takes.
+/// Value type of an option that is not a setting.
 enum class KeywordKind : std::uint8_t { WholeNumber, Number, Switch, Text, TextOrNumber, Point, Hooks };
 
-/// An option that says how a scene is loaded, or moves its camera: a row a keyword. Settings are keywords too.
+/// A keyword that controls scene loading or moves the camera. Settings are keywords too.
 struct LoadKeyword {
     std::string_view keyword;
     KeywordKind kind;
@@ -27,7 +27,7 @@ struct LoadKeyword {
 };
 std::span<const LoadKeyword> loadKeywords();
 
-/// The most that a script may say of one such option; what its kind takes alone is looked at.
+/// Value of a load keyword; only the fields of its kind are read.
 struct KeywordValue {
     double number = 0.0; ///< WholeNumber, Number
     bool isOn = false;   ///< Switch
@@ -35,10 +35,10 @@ struct KeywordValue {
     glm::dvec3 point{0.0};
     std::vector<scenes::HookValue> hooks{};
 };
-/// Takes a value over into the options. Throws InputError where it is none that the command line would take.
+/// Stores a value in the options. Throws InputError for values that the command line would refuse.
 void takeKeyword(std::string_view keyword, const KeywordValue& value, FrameOptions& options);
 
-/// "did you mean 'exposure'?": the end of a message on a word that is no keyword. `further` are those of one function.
+/// End of a message on an unknown keyword: "did you mean 'exposure'?". `further`: additional keywords of one function.
 std::string suggestKeywords(std::string_view word, std::span<const std::string_view> further = {});
 
 } // namespace tessera::app

@@ -10,7 +10,7 @@ namespace tessera::app {
 
 namespace {
 
-/// Text as it is: a reader may copy options from the page, so that hyphens, quotes and accents must stay what they are.
+/// Escapes text for roff. Hyphens, quotes and accents must stay literal, since readers copy options from the page.
 std::string roff(const std::string& text) {
     std::string escaped = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
     for (const char c : text) {
@@ -44,12 +44,12 @@ bool isSameText(const OptionText& a, const OptionText& b) {
     return a.names == b.names && a.type == b.type && a.help == b.help && a.group == b.group;
 }
 
-/// Every command has it; the program's stands for all.
+/// Every command has --help; the page lists only the program's.
 bool isHelp(const OptionText& option) {
     return std::ranges::find(option.names, "--help") != option.names.end();
 }
 
-/// Whether the option has a heading, under which another command has it in the same words.
+/// Whether several commands have the option, worded alike, under the same named heading.
 bool isShared(const ProgramText& text, const OptionText& option) {
     if (option.group == kPlainGroup) return false;
     int commands = 0;
@@ -71,7 +71,7 @@ std::string roffOperand(const OptionText& operand) {
     return fmt::format(".TP\n\\fI{}\\fR\n{}\n", roff(operand.type), roff(operand.help));
 }
 
-/// Of a help's last part: examples, which are indented, as they are, and paragraphs.
+/// Formats a help footer: indented lines as verbatim examples, the rest as paragraphs.
 std::string roffFooter(const std::string& footer) {
     std::string text;
     std::istringstream lines(footer);
@@ -102,7 +102,7 @@ std::string roffCommand(const ProgramText& text, const CommandText& command) {
     return page + roffFooter(command.footer);
 }
 
-/// The options that several commands have, under their headings in --help.
+/// The options shared by several commands, under their headings in --help.
 std::string roffSharedOptions(const ProgramText& text) {
     std::vector<OptionText> shared;
     std::vector<std::string> groups;

@@ -5,8 +5,8 @@
 
 namespace tessera::app {
 
-/// The manual page, section 1, as man(7) reads it: what --help of the program and of every command says. Options that
-/// commands share, word for word, stand once.
+/// The manual page, section 1, in man(7) format: the --help texts of the program and of every command. Options that
+/// commands share verbatim are listed once.
 std::string manualPage(const ProgramText& text, const std::string& version);
 
 } // namespace tessera::app

@@ -13,7 +13,7 @@ namespace tessera::app {
 
 namespace {
 
-/// Whether every material of the scene's surfaces hides them, whatever its textures.
+/// Whether the material factors make every surface fully transparent, whatever the textures.
 bool isAllClear(const scenes::Scene& scene) {
     const auto isClear = [&](const scenes::MeshInstance& instance) {
         if (instance.material == scenes::kNone) return false;
@@ -32,7 +32,7 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
                     const std::string& cut) {
     std::size_t covered = 0, bad = 0;
     bool hasNaN = false;
-    bool isBlack = view == frame::DebugView::Final && !scene.lights.empty(); // without lights that is no surprise
+    bool isBlack = view == frame::DebugView::Final && !scene.lights.empty(); // without lights black is expected
     for (std::size_t pixel = 0; pixel < rgba.size(); pixel += 4) {
         covered += rgba[pixel + 3] > 0.0f;
         bad += !(std::isfinite(rgba[pixel]) && std::isfinite(rgba[pixel + 1]) && std::isfinite(rgba[pixel + 2]));
@@ -68,7 +68,7 @@ void settleForReference(const FrameOptions& options, frame::FrameSettings& setti
 
 namespace {
 
-/// Of a setting that was said: why the reference has no use of it; empty: it may change its picture.
+/// Why the reference ignores a given option; empty: it may change the image.
 std::string whyUnheededByReference(const engine::Setting& setting, const Request& request) {
     if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows")
         return "The reference follows rays of its own";

@@ -6,18 +6,18 @@
 #include "apps/Request.h"
 #include "base/Picture.h"
 
-/// What commands and scripts have in common that make a picture.
+/// Functions shared by the commands and scripts that render an image.
 namespace tessera::app {
 
-/// Why a picture (RGBA, A the share of a pixel that is covered) shows nothing of its scene or is black, or how many of
-/// its pixels are no numbers; empty: none of these. `cut` says how shadows may have made pixels NaN, or nothing.
+/// Warning about an image (RGBA; A: covered fraction of the pixel) that shows nothing of its scene, is black, or has
+/// NaN or infinite pixels; empty: none of these. `cut`: how truncated shadow loops may have caused NaN, or empty.
 std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span<const float> rgba,
                     const std::string& cut);
 
-/// Settings as the reference takes them where no filter is asked for: the exact one. Throws InputError where it takes
-/// them not.
+/// Selects exact texture filtering unless a filter is given. Throws InputError for settings that the reference does not
+/// support.
 void settleForReference(const FrameOptions& options, frame::FrameSettings& settings);
-/// Which settings were said and change nothing of the reference's pictures: a sentence or two each.
+/// Warnings for given settings that do not affect the reference's images: one or two sentences each.
 std::vector<std::string> unheededByReference(const FrameOptions& options, const Request& request);
 
 } // namespace tessera::app

@@ -71,15 +71,15 @@ ValueText stressNames() {
     return text;
 }
 
-/// Values that no setting has.
+/// Values of options that are not settings.
 struct OwnValues {
-    std::string_view command; ///< empty: of every command
-    std::string_view option;  ///< an operand by its type
+    std::string_view command; ///< empty: every command
+    std::string_view option;  ///< its name, or the type of an operand
     ValueText (*values)();
 };
 constexpr OwnValues kOwnValues[] = {
     {"render", "--technique", techniqueOrReference},
-    {"", "--techniques", someTechniques}, // before the name that stress has for the same
+    {"", "--techniques", someTechniques}, // before --technique, its alias in `stress`
     {"", "--technique", oneTechnique},
     {"compare", "--against", truthOfCompare},
     {"bench", "--against", truthOfBench},

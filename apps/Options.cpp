@@ -9,7 +9,7 @@ namespace tessera::app {
 
 namespace {
 
-/// "none, studio (what it is for), ..."
+/// "none, studio (purpose), ..."
 std::string environmentNames() {
     std::string names(scenes::kNoEnvironment);
     for (const scenes::BuiltinEnvironment& builtin : scenes::builtinEnvironments())
@@ -31,7 +31,7 @@ void addSettings(CLI::App& command, FrameOptions& options, std::string_view grou
                                               fmt::format("{}{} [{}]", setting.help, range, byItself))
             ->type_name(std::string(setting.type))
             ->group(std::string(group));
-        if (setting.key == "time") // beside the other options of lights
+        if (setting.key == "time") // next to the other light options
             addWholeNumber(command, "--lights", options.lights,
                            "Built-in scenes make this many lights, files keep their first N", "N")
                 ->group(std::string(group));

@@ -6,7 +6,7 @@
 
 #include "apps/Request.h"
 
-/// What the command line says.
+/// The options on the command line.
 namespace tessera::app {
 
 /// Options of the program itself, before or after the command.
@@ -18,9 +18,9 @@ struct GlobalOptions {
 void addGlobalOptions(CLI::App& app, GlobalOptions& options);
 std::unique_ptr<gpu::Context> makeContext(const GlobalOptions& options);
 
-/// All but the scene.
+/// Adds all frame options except the scene.
 void addFrameSettings(CLI::App& command, FrameOptions& options);
-/// The scene, which is required where `defaultScene` is empty, and the rest.
+/// Adds all frame options. The scene is required if `defaultScene` is empty.
 void addFrameOptions(CLI::App& command, FrameOptions& options, const std::string& defaultScene);
 
 } // namespace tessera::app

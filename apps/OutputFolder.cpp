@@ -47,8 +47,8 @@ std::string pictureFile(const std::string& name, const std::string& extension) {
     std::erase_if(file, [](char c) { return c == '(' || c == ')'; });
     std::ranges::replace_if(
         file, [](unsigned char c) { return c <= ' ' || c == 0x7f || c == '/' || c == '\\' || c == ':'; }, '_');
-    if (file.starts_with('.')) file.front() = '_'; // a hidden file
-    constexpr std::size_t kMostBytes = 200;        // of the 255 that file systems take
+    if (file.starts_with('.')) file.front() = '_'; // would be a hidden file
+    constexpr std::size_t kMostBytes = 200;        // file systems allow 255
     if (file.size() > kMostBytes)
         file = fmt::format("{}_{:016x}", beginningOf(file, kMostBytes), std::hash<std::string>()(name));
     return (file.empty() ? "picture" : file) + extension;

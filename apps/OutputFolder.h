@@ -3,16 +3,15 @@
 
 namespace tessera::app {
 
-/// Throws std::runtime_error when no files can be written into a folder of that name, which need not exist yet; makes
-/// nothing.
+/// Throws std::runtime_error if files cannot be written into the folder, which need not exist yet. Creates nothing.
 void requireFolderPlace(const std::string& folder);
 
-/// Makes the folder and those above it where they are missing. Throws std::runtime_error naming it and the remedy.
+/// Creates the folder and its missing parents. Throws std::runtime_error naming the folder and the remedy.
 void makeFolder(const std::string& folder);
 
-/// The name of a picture's file, without its folder, from that of a technique or a scene, which a file may give:
-/// "deferred (packed)" is "deferred_packed", and no name leads out of the folder. A name that is
-/// too long for a file is cut, and ends in a number that tells it from others.
+/// File name of an image, without its folder, from the name of a technique or scene: "deferred (packed)" becomes
+/// "deferred_packed". Scene names come from files, so path separators are replaced. A long name is truncated and ends
+/// in a hash.
 std::string pictureFile(const std::string& name, const std::string& extension);
 
 } // namespace tessera::app

@@ -34,8 +34,8 @@ void requireOutput(const std::string& path) {
     if (!isStandardOutput(path)) requireWritable(path);
 }
 
-/// A file that is not there yet has the name of its folder before its own: for a sequence of pictures the folder is
-/// looked up once.
+/// A file that does not exist yet is identified by its canonical folder and its name. The folder is cached: an image
+/// sequence resolves it once.
 std::string Outputs::identityOf(const std::string& path) const {
     if (path.empty() || isStandardOutput(path)) return {};
     std::error_code failure;

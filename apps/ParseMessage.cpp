@@ -50,7 +50,7 @@ std::string unknownOption(const CLI::App& app, const CLI::App* command, const st
     return fmt::format("unknown option '{}'{}", flag, isNear ? ": " + suggestion : where);
 }
 
-/// "--environment lacks its value: ..."; empty where the error is another.
+/// "--environment lacks its value: ..."; empty for other errors.
 std::string lackingValue(const CLI::App& app, const CLI::App* command, const CLI::ParseError& error) {
     if (error.get_exit_code() != int(CLI::ExitCodes::ArgumentMismatch)) return {};
     const std::string what = error.what(), flag = what.substr(0, what.find(':'));
@@ -75,7 +75,7 @@ std::string unknownCommandOf(const CLI::App& app, int argc, const char* const* a
 std::string parseMessage(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
     const CLI::App* command = nullptr;
     std::string where = "; see tessera --help";
-    std::string stray; // a word that nothing takes
+    std::string stray; // an unexpected argument
     for (int i = 1; i < argc; ++i) {
         const std::string word = argv[i];
         if (word == "--") break;

@@ -5,10 +5,10 @@
 
 namespace tessera::app {
 
-/// What is wrong with the command that the words name; empty where they name one that there is, or none.
+/// Message on an unknown command name; empty if the command exists or none is named.
 std::string unknownCommandOf(const CLI::App& app, int argc, const char* const* argv);
 
-/// One line for an error of the parser: it names the word, the nearest valid ones and where to read more.
+/// One-line message for a parse error: names the word, the nearest valid ones and the help to read.
 std::string parseMessage(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv);
 
 } // namespace tessera::app

@@ -41,7 +41,7 @@ graph::Plan planOf(const PlanningOptions& options, const Request& request) {
 }
 
 void warnOfPlan(const PlanningOptions& options, const Request& request) {
-    std::optional<std::vector<std::string>> unheeded; // in all views
+    std::optional<std::vector<std::string>> unheeded; // common to all views
     for (const engine::ViewRequest& view : viewsOf(options, request)) {
         const std::vector<std::string> own =
             unheededSettings(options.frame, request, engine::prepareView(request.scene, view.technique, view.settings),

@@ -8,24 +8,24 @@
 
 namespace tessera::app {
 
-/// What of the options of `tessera plan` its contents depend on.
+/// Options of `tessera plan` that affect the plan.
 struct PlanningOptions {
     FrameOptions frame;
     std::vector<std::string> also; ///< cameras of further views
-    bool measure = false;          ///< in milliseconds; of one view
+    bool measure = false;          ///< measures milliseconds; one view only
 };
 
-/// Throws InputError for options of which no plan can be made, whatever the scene.
+/// Throws InputError for options that allow no plan, whatever the scene.
 void requirePlan(const PlanningOptions& options);
 
-/// The plan of a resolved request. Throws InputError where the technique does not take the settings, or a camera is
-/// none of the scene.
+/// The plan of a resolved request. Throws InputError if the technique does not support the settings or the scene lacks
+/// a camera.
 graph::Plan planOf(const PlanningOptions& options, const Request& request);
 
-/// Warns of options that were said and change nothing of any of the views, as unheededSettings() says.
+/// Warns of given options that affect none of the views; see unheededSettings().
 void warnOfPlan(const PlanningOptions& options, const Request& request);
 
-/// The same with its milliseconds, by a renderer of the request's scene.
+/// planOf() with milliseconds, measured by a renderer of the request's scene.
 graph::Plan measuredPlan(const Request& request, engine::Renderer& renderer, const gpu::Capabilities& gl);
 
 } // namespace tessera::app

@@ -11,8 +11,8 @@
 namespace tessera::app {
 namespace {
 
-constexpr int kMostBar = 40;  // a longer bar tells no more
-constexpr int kLeastBar = 10; // a shorter one tells nothing
+constexpr int kMostBar = 40;  // a longer bar adds no information
+constexpr int kLeastBar = 10; // a shorter one is too coarse
 constexpr int kUsualColumns = 80;
 
 int columnsOf(std::FILE* stream) {
@@ -28,7 +28,7 @@ bool ProgressOutput::streamIsTerminal(std::FILE* stream) {
 }
 
 std::string durationText(double seconds) {
-    // Beyond 1000 hours an estimate means nothing, and the whole numbers below must not overflow.
+    // Clamps to 1000 hours: longer estimates are meaningless, and lround() must not overflow.
     const long whole = std::lround(std::clamp(seconds, 0.0, 3.6e6));
     if (whole < 60) return fmt::format("{} s", whole);
     if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);

@@ -13,16 +13,16 @@ namespace tessera::app {
 /// Where and when a progress bar is drawn; the defaults suit programs.
 struct ProgressOutput {
     std::FILE* stream = stderr;
-    bool isTerminal = streamIsTerminal(stream); ///< nothing at all is written when it is not
-    int columns = 0;                            ///< width of the terminal; 0: ask it
+    bool isTerminal = streamIsTerminal(stream); ///< false: nothing is written
+    int columns = 0;                            ///< width of the terminal; 0: queries it
     double delaySeconds = 2.0;                  ///< shorter work shows no bar
-    double intervalSeconds = 0.2;               ///< between two drawings
+    double intervalSeconds = 0.2;               ///< between redraws
 
     static bool streamIsTerminal(std::FILE* stream);
 };
 
-/// A progress bar with the time left, on stderr. It draws itself from a thread of its own, so that it also moves while
-/// one step takes long, and takes itself away at the end, also when an exception ends the work.
+/// A progress bar with the remaining time, on stderr. A separate thread redraws it, so that it also moves during long
+/// steps. The destructor removes it, also after an exception.
 class Progress {
 public:
     Progress(std::string label, std::size_t total, bool quiet = false, ProgressOutput output = {});
@@ -52,7 +52,7 @@ private:
 std::string progressLine(std::string_view label, std::size_t done, std::size_t total, double elapsedSeconds,
                          int columns);
 
-/// A span of time for people: "8 s", "3 min 20 s", "2 h 5 min".
+/// Human-readable duration: "8 s", "3 min 20 s", "2 h 5 min".
 std::string durationText(double seconds);
 
 } // namespace tessera::app

@@ -36,24 +36,24 @@ namespace {
 struct RenderOptions {
     FrameOptions frame;
     std::string output;
-    std::optional<FrameRange> frames; ///< none: one picture
+    std::optional<FrameRange> frames; ///< none: a single image
     std::optional<double> framesPerSecond;
     std::optional<std::string> shard;
     bool repeatsClip = false;
 };
 
-/// What a command makes: one picture, or the frames of a sequence.
+/// The work of a render command: a single image, or the frames of a sequence.
 struct RenderJob {
     Request request;
     std::string scene;  ///< as the command line names it
-    std::string output; ///< of one picture
+    std::string output; ///< of a single image
     std::optional<FrameSequence> sequence;
     Outputs outputs;
 
-    /// How many pictures are to be made.
+    /// Number of images to render.
     std::size_t pictures() const { return sequence ? sequence->unfinished() : 1; }
-    /// Shows the scene at a time of the sequence; a single picture's scene is at its time already. What of it may
-    /// have changed.
+    /// Poses the scene at a time of the sequence and returns the parts that may have moved. The scene of a single image
+    /// is already posed.
     scenes::MovingParts pose(double timeSeconds) {
         if (!sequence || !scenes::isPlaying(request.scene)) return {};
         poseAt(request.scene, timeSeconds, scene);
@@ -65,7 +65,7 @@ struct RenderJob {
     }
 };
 
-/// The bytes of a file of that name.
+/// Encodes an image in the format of the path's extension.
 std::vector<std::uint8_t> encodedPicture(const std::string& path, const Request& request,
                                          const engine::Renderer& renderer, const engine::RenderedFrame& frame) {
     if (extensionOf(path) == ".exr") return encodeExr(engine::toPicture(frame));
@@ -82,12 +82,12 @@ void requirePictureExtension(const std::string& path) {
     }
 }
 
-/// What pictures of one scene and one request depend on besides: the program, its shaders, and who draws.
+/// Identifies the inputs of images besides the scene and the request: the program, its shaders and the renderer.
 std::string makerText(const std::string& renderer) {
     const shader::SourceTree shaders;
     std::string text = fmt::format("{} {} {}", kCommit, renderer, shaders.describe());
     if (const auto change = shaders.newestChange()) text += fmt::format(" {}", change->time_since_epoch().count());
-    // A build of no commit tells itself from others by its file.
+    // A build without a clean commit is identified by the modification time of its executable.
     std::error_code ignored;
     const std::string_view commit = kCommit;
     if (commit == "unknown" || commit.ends_with("-dirty"))
@@ -96,23 +96,23 @@ std::string makerText(const std::string& renderer) {
     return text;
 }
 
-/// Warns of a picture that shows nothing, as faultOf() says; of a sequence about the first such picture alone.
+/// Warns of a faulty image (faultOf()); in a sequence only of the first.
 void warnOfPicture(const std::string& path, const std::string& fault, bool& hasWarned) {
     if (fault.empty() || std::exchange(hasWarned, true)) return;
     spdlog::warn("{}", oneLine(path + ": " + fault));
 }
 
-/// Once nothing stands in the way of a picture, since an error is all that is said of a mistake.
+/// Prints the scene's other cameras. Called after all checks, so that a mistake prints only its error.
 void tellOfCameras(const FrameOptions& options, const Request& request, bool isQuiet) {
     if (const std::string text = camerasText(options, request); !text.empty() && !isQuiet) fmt::print("{}\n", text);
 }
 
-/// Without a context, unless the scene's hook needs one to run.
+/// Renders with the reference, without a context unless the scene's hook needs one.
 void renderReference(const RenderOptions& options, RenderJob& job, const GlobalOptions& global) {
     frame::FrameSettings& settings = job.request.settings;
     settleForReference(options.frame, settings);
     const bool isLinear = extensionOf(options.output) == ".exr";
-    job.pose(0.0); // so that the same frames have the same scene, whatever --time they were asked for with
+    job.pose(0.0); // makes the scene's fingerprint independent of --time
     if (job.sequence)
         job.sequence->leaveOutFinished(job.request, job.request.scene, makerText(std::string(kReferenceName)));
     if (job.pictures() == 0) return;
@@ -140,7 +140,7 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
     });
 }
 
-/// Checks what is said of the output and of the sequence, which is returned where one is asked for.
+/// Checks the options of the output and the sequence. Returns the sequence if one is requested.
 std::optional<FrameSequence> sequenceOf(const RenderOptions& options) {
     requirePictureExtension(options.output);
     if (!options.frames) {
@@ -167,7 +167,7 @@ std::optional<FrameSequence> sequenceOf(const RenderOptions& options) {
     return frames;
 }
 
-/// Prints what the user should know of the clip, and warns where there is none to repeat.
+/// Prints notes on the active clip; warns if --loop has no clip to repeat.
 void tellOfClip(const RenderOptions& options, RenderJob& job, bool isQuiet) {
     const scenes::Scene& scene = job.request.scene;
     if (const std::string clip = scenes::clipText(scene); !clip.empty() && !isQuiet) fmt::print("{}\n", oneLine(clip));
@@ -195,7 +195,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
     engine::Renderer renderer(*context, request.scene);
     tellOfCameras(frame, request, global.quiet);
     filterEnvironment(request, renderer, global.quiet);
-    // One picture is soon made, but for light that spreads over surfaces.
+    // A single image is fast, except for diffusing subsurface irradiance, which has its own bar.
     Progress progress("rendering", job.pictures(), global.quiet || !job.sequence);
     std::optional<Progress> spreading;
     if (!job.sequence)
@@ -207,7 +207,7 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
             if (done == objects) spreading.reset();
         });
     bool hasWarned = false, hasWarnedOfShadows = false, hasWarnedOfTextures = false, hasWarnedOfSpread = false;
-    std::optional<std::vector<std::string>> unheeded; // in all pictures
+    std::optional<std::vector<std::string>> unheeded; // common to all images
     job.make(request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         renderer.partsMoved(job.pose(one.timeSeconds));
         const engine::RenderedFrame picture = renderer.render(request.technique, one);

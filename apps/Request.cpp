@@ -42,7 +42,7 @@ struct NamedContext {
 constexpr NamedContext kContexts[] = {
     {"auto", gpu::ContextKind::Auto}, {"window", gpu::ContextKind::Window}, {"egl", gpu::ContextKind::Egl}};
 
-/// 512M, 4G: a whole number of bytes, or of 2^10, 2^20, 2^30 of them.
+/// Parses a size such as 512M or 4G: a whole number of bytes, or of K, M, G = 2^10, 2^20, 2^30 bytes.
 std::uint64_t bytesNamed(const std::string& text) {
     struct Unit {
         char letter;
@@ -61,12 +61,12 @@ std::uint64_t bytesNamed(const std::string& text) {
     return number << bits;
 }
 
-/// As the command line calls a setting.
+/// Names a setting by its command-line flag.
 engine::TextSource fromCommandLine(const engine::Setting& setting, const scenes::Scene* scene = nullptr) {
     return {setting.flag, scene};
 }
 
-/// The time that the options, else the scene ask for.
+/// The time requested by the options, else by the scene.
 double secondsFor(const FrameOptions& options, const scenes::Scene& scene) {
     const engine::Setting& time = engine::settingOf("time");
     engine::ViewRequest request;
@@ -74,7 +74,7 @@ double secondsFor(const FrameOptions& options, const scenes::Scene& scene) {
         time.read(request, *said, fromCommandLine(time));
     else
         engine::takeWishes(scene, options.scene, request, [](const engine::Setting& setting) {
-            return setting.key != "time"; // of the others the texts alone are read
+            return setting.key != "time"; // the other settings are only checked, not applied
         });
     return request.settings.timeSeconds;
 }
@@ -199,7 +199,7 @@ Request resolve(const FrameOptions& options, std::stop_token stop) {
 
 namespace {
 
-/// Of a setting of scattering that was said. `--subsurface none` asks for the surface alone, which every scene has.
+/// Why a given subsurface setting changes nothing. `--subsurface none` is never reported: every scene can do without.
 std::string whyNoScattering(const engine::Setting& setting, const Request& request) {
     if (setting.key == "subsurface" && request.settings.subsurface == scenes::SubsurfaceMethod::None) return {};
     if (!scenes::anyScatters(request.scene))
@@ -210,7 +210,7 @@ std::string whyNoScattering(const engine::Setting& setting, const Request& reque
     return fmt::format("Light spreads over no surface; give --subsurface {}", infoOf(kSpreading).name);
 }
 
-/// Of a setting of shadows that was said, but for whether there are any.
+/// Why a given shadow setting changes nothing although the view has shadows.
 std::string whyNoPartOfShadows(const engine::Setting& setting, const Request& request,
                                const frame::PreparedView& prepared) {
     if (std::string why = setting.whyIdle(request); !why.empty()) return why;
@@ -226,7 +226,7 @@ std::string whyNoShadows(const engine::Setting& setting, const Request& request,
     return "There are no shadows: " + frame::whyNoShadows(request.scene, prepared.lights, request.settings.shadows);
 }
 
-/// Of a filter that was said and has no lights with a size to heed.
+/// Warning for a given soft shadow filter in a view without shadowed area lights.
 std::string asHardShadows(const engine::Setting& setting, const Request& request, const frame::PreparedView& prepared) {
     const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
     if (setting.key != "shadowFilter" || !filter.usesMaps || !filter.heedsSizes || prepared.lights.shadowed == 0 ||

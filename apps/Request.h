@@ -13,14 +13,14 @@
 #include "scenes/CameraChange.h"
 #include "scenes/Load.h"
 
-/// What is asked for in texts, on the command line or by a script, and its translation into the library's terms. Every
-/// name is looked up in the library's tables, so an error can list the valid names.
+/// Requests as text, from the command line or a script, and their translation into the library's types. Names are
+/// looked up in the library's tables, so errors can list the valid ones.
 namespace tessera::app {
 
 /// The name of the reference renderer where a technique is expected.
 inline constexpr const char* kReferenceName = "reference";
 
-std::vector<std::string> contextNames(); ///< that --context takes
+std::vector<std::string> contextNames(); ///< values of --context
 gpu::ContextKind contextKind(const std::string& name);
 scenes::LightUnits lightUnitsNamed(const std::string& name);
 scenes::ObjColours objColoursNamed(const std::string& name);
@@ -29,61 +29,59 @@ scenes::ObjColours objColoursNamed(const std::string& name);
 /// default.
 struct FrameOptions {
     std::string scene;
-    std::map<std::string, std::string, std::less<>> settings; ///< texts, by the settings' keys
+    std::map<std::string, std::string, std::less<>> settings; ///< text by setting key
     std::optional<std::string> memoryLimit;
     std::optional<int> lights;
     bool noDefaultLight = false;
-    bool defaultCamera = false;                ///< as scenes::LoadOptions has it
+    bool defaultCamera = false;                ///< see scenes::LoadOptions
     std::optional<std::string> environment;    ///< the same
     std::optional<glm::dvec3> background;      ///< the same
     std::optional<std::string> clip;           ///< the same
     std::vector<scenes::HookValue> hookValues; ///< the same
     scenes::ImportWishes import;               ///< the same
-    scenes::CameraChange pose;                 ///< of the camera that is chosen
+    scenes::CameraChange pose;                 ///< of the selected camera
 
-    /// What was said of the setting of that key.
+    /// The given text of a setting, if any.
     std::optional<std::string> said(std::string_view key) const;
 };
 /// A scene and how to look at it.
 struct Request : engine::ViewRequest {
     scenes::Scene scene;
-    std::vector<std::string> files; ///< that the scene was read from
+    std::vector<std::string> files; ///< read for the scene
 };
-/// scenes::poseScene(), of which an error names the scene's file and the time.
+/// scenes::poseScene() with errors that name the scene's file and the time.
 void poseAt(scenes::Scene& scene, double timeSeconds, const std::string& file);
 
-/// The scene alone, as the options have it: at the time that they, else the scene ask for, the camera they choose where
-/// they place it.
-/// Names of the files it was read from are added to `files`. Throws scenes::LoadStopped where a stop is requested.
+/// Loads the scene, poses it at the time of the options, else of the scene, and calls placeCamera(). Appends the names
+/// of the files it reads to `files`. Throws scenes::LoadStopped if a stop is requested.
 scenes::Scene loadFor(const FrameOptions& options, std::vector<std::string>* files = nullptr,
                       std::stop_token stop = {});
-/// What can be read without the scene: a mistake in it is found before a large scene is read for nothing.
+/// Resolves the options that need no scene, so that their mistakes are found before a large scene is read.
 Request resolveWithoutScene(const FrameOptions& options);
-/// Options that name things of the request's scene, and the scene's own options where the command line sets none.
+/// Resolves the options that refer to the request's scene, and the scene's options where the command line sets none.
 void resolveForScene(const FrameOptions& options, Request& request);
-/// Places the camera that the options, else the scene choose, so that no clip moves it any more, and turns the light
-/// along it that the scene was given for want of its own. Throws InputError for what no camera can have.
+/// Applies the camera change to the camera selected by the options, else by the scene. Clips no longer animate what it
+/// changes. Throws InputError for invalid camera parameters.
 void placeCamera(const FrameOptions& options, scenes::Scene& scene);
-/// Loads the scene, resolves every name, and when all is well warns of what the scene lacks. Throws InputError, and
-/// scenes::LoadStopped as loadFor().
+/// Loads the scene, resolves every name and, on success, calls warnOfScene(). Throws InputError, and
+/// scenes::LoadStopped like loadFor().
 Request resolve(const FrameOptions& options, std::stop_token stop = {});
-/// Warns of what the request's scene lacks, as resolve() does.
+/// Logs the scene's warnings, active clip, supplied parts and notes.
 void warnOfScene(const scenes::Scene& scene);
 
-/// A line of which cameras the scene has besides the one that is used; empty where there are none, or where the options
-/// choose one or place their own.
+/// One line that lists the scene's other cameras; empty if there are none, or the options select or place one.
 std::string camerasText(const FrameOptions& options, const Request& request);
 
-/// How loadScene() is asked for the scene. Throws InputError.
+/// The arguments of loadScene(). Throws InputError.
 scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
-/// Why a setting, but those of shadows and of subsurface scattering, changes nothing of any picture of the request's
-/// scene; empty: it may.
+/// Why a setting, except those of shadows and subsurface scattering, changes no image of the request's scene; empty: it
+/// may change one.
 std::string whyUnheeded(const engine::Setting& setting, const Request& request);
-/// "--flag changes nothing. Why": of a setting that was said.
+/// Warning "--flag changes nothing. Why" for a given setting.
 std::string unheededText(const engine::Setting& setting, std::string why);
-/// Which settings were said and surely change nothing of a picture by any of these techniques, nor of the reference
-/// where it is drawn beside them, and why: a sentence or two each.
+/// Warnings for given settings that certainly change no image of these techniques, nor of the reference if drawn too:
+/// one or two sentences each.
 std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
                                           const frame::PreparedView& prepared,
                                           std::span<const engine::Technique> techniques, bool besideReference = false);

@@ -56,7 +56,7 @@ Json schemaOf(const engine::CameraKind&) {
     return {{"$ref", "#/definitions/name"}};
 }
 
-/// That of scenes, which know no settings, with those there are.
+/// Prints the scene schema with the settings added, which the scene module does not contain.
 int printSchema() {
     Json schema = Json::parse(scenes::sceneSchema());
     Json& options = schema["definitions"]["options"];

@@ -19,10 +19,10 @@ struct StressOptions {
     bool quick = false, list = false;
 };
 
-/// Steps of the progress bar; cases count alike.
+/// Steps of the progress bar; all cases have equal weight.
 constexpr std::size_t kSteps = 1000;
 
-/// The shard's part of the cases that are asked for: every Nth of them.
+/// The shard's part of the requested cases: every Nth.
 std::vector<const validation::StressCase*> casesOf(const StressOptions& options) {
     const Shard shard = shardNamed(options.shard);
     std::vector<const validation::StressCase*> cases;

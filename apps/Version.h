@@ -2,8 +2,7 @@
 
 namespace tessera::app {
 
-/// The commit that the program was built from, "-dirty" behind it where files had changed; "unknown" outside a
-/// repository.
+/// The commit of the build, with suffix "-dirty" if files had changed; "unknown" outside a repository.
 extern const char* const kCommit;
 
 } // namespace tessera::app

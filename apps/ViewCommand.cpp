@@ -16,7 +16,7 @@ struct ViewOptions {
     bool log = false;
 };
 
-/// Those of the latest runs. A file that cannot be read is said so, and left alone.
+/// Reads the preferences of earlier runs. Warns of an unreadable file and does not overwrite it later.
 void readPreferences(viewer::ViewerOptions& viewing) {
     const auto file = viewer::preferencesFile();
     if (!file) return;

@@ -7,7 +7,7 @@ namespace tessera::app {
 
 namespace {
 
-/// A text between single quotes, with a backslash before each of `special`.
+/// Escapes text for single quotes, with a backslash before each character of `special`.
 std::string zshText(const std::string& text, std::string_view special = "[]:\\") {
     std::string escaped;
     for (const char c : text) {
@@ -17,7 +17,7 @@ std::string zshText(const std::string& text, std::string_view special = "[]:\\")
     return escaped;
 }
 
-/// ":FILE:_files", what _arguments does for a value.
+/// Value part of an _arguments specification, such as ":FILE:_files".
 std::string valueSpec(const OptionText& option) {
     const ValueText& value = option.value;
     const std::string names = fmt::format("{}", fmt::join(value.names, " "));

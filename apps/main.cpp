@@ -41,19 +41,19 @@ constexpr const char* kFooter = R"(Examples
 
 Exit codes: 0 good, 1 failure while running or writing, 2 unusable input, 3 a tolerance missed.)";
 
-/// A software rasteriser takes megabytes for the vertices of every frame and lets them go. The C library would give
-/// them back to the system and take zeroed pages the next time: a third of the time of a small picture of hall.
+/// Keeps freed memory in the process. A software rasteriser allocates and frees megabytes of vertices per frame;
+/// returning them to the system and fetching zeroed pages again costs a third of the time of a small image of `hall`.
 void keepFreedMemory() {
 #ifdef __GLIBC__
     constexpr int kKeptBytes = 256 << 20;
-    constexpr int kOwnMappingBytes = 32 << 20; // larger allocations are mapped by themselves, and returned
+    constexpr int kOwnMappingBytes = 32 << 20; // larger allocations use mmap and are returned
     mallopt(M_TRIM_THRESHOLD, kKeptBytes);
     mallopt(M_MMAP_THRESHOLD, kOwnMappingBytes);
 #endif
 }
 
-/// Where a standard stream is closed, the next file that is opened would take its number, and messages would end in it.
-/// What takes it here cannot be written either.
+/// Opens /dev/null read-only for closed standard streams. Otherwise the next opened file would get the descriptor, and
+/// messages would be written into it.
 void holdStandardStreams() {
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF && open("/dev/null", O_RDONLY) == -1) return;
@@ -76,7 +76,7 @@ void printDriver(const gpu::Capabilities& gl, bool isVerbose) {
                gl.glslVersion, gl.maxTextureSize, gl.maxTextureBufferTexels, gl.maxUniformBlockBytes, gl.maxSamples);
 }
 
-/// Of the program, and of the driver. Without a driver it still tells its own, unless it is asked for every detail.
+/// Prints the versions of the program and the driver. A missing driver is an error only with --verbose.
 int printVersion(const GlobalOptions& options) {
     std::unique_ptr<gpu::Context> context;
     std::string missing;
@@ -94,14 +94,14 @@ int printVersion(const GlobalOptions& options) {
     return kGood;
 }
 
-/// An error is one line, although some texts, such as a shader compiler's log, have many.
+/// Prints an error as one line, although some texts, such as a shader compiler's log, have many.
 int fail(const std::string& text, int code) {
     printProblem("error: " + text);
     return code;
 }
 
-/// The end of a program whose standard output cannot be written. Where its reader has seen enough (`tessera plan hall |
-/// head -1`) that is no error to speak of.
+/// Ends a program whose standard output cannot be written. A pipe closed by its reader (`tessera plan hall | head -1`)
+/// is not reported as an error.
 int failedOutput(int error) {
     if (error == EPIPE) endAsByClosedPipe();
     return fail(fmt::format("cannot write the output: {}{}", std::strerror(error),
@@ -109,7 +109,7 @@ int failedOutput(int error) {
                 kFailed);
 }
 
-/// What was printed may still wait in memory; a full disk shows only when it leaves.
+/// Flushes stdout: buffered output hides a full disk until then.
 int flushed(int code) {
     if (code == kFailed || (std::fflush(stdout) == 0 && std::ferror(stdout) == 0)) return code;
     return failedOutput(errno);
@@ -126,7 +126,7 @@ std::vector<const char*> withoutHelpCommand(std::vector<const char*> words) {
 
 constexpr const char* kEmptyValue = "is empty; give a value";
 
-/// Where a shell's variable is not set, an option gets an empty text. Then it must not be as if it had not been given.
+/// Rejects empty option values: an unset shell variable must not make an option count as not given.
 void refuseEmptyValues(CLI::App& app) {
     const CLI::Validator notEmpty([](const std::string& text) { return text.empty() ? kEmptyValue : ""; }, "");
     for (CLI::Option* option : app.get_options())
@@ -134,7 +134,7 @@ void refuseEmptyValues(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({})) refuseEmptyValues(*command);
 }
 
-/// The parser would take the next word for the value of "--name=", and "=value" for that of "-n=value".
+/// Rejects what the parser would misread: the next word as the value of "--name=", and "=value" as that of "-n=value".
 void refuseMisplacedEquals(const std::vector<const char*>& words) {
     for (const std::string_view word : words) {
         if (word == "--") return;

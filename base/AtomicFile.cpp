@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 void writeAndClose(std::FILE* file, std::string_view bytes, const std::string& path, bool toDisk) {
     bool good = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() && std::fflush(file) == 0;
 #if __has_include(<unistd.h>)
-    // Without it a power cut after the rename can leave the new name with an empty file.
+    // Without fsync a power cut after the rename can leave an empty file under the new name.
     good = good && (!toDisk || ::fsync(fileno(file)) == 0);
 #endif
     const int error = errno;
@@ -50,7 +50,7 @@ bool mayWriteOver(const fs::path& target) {
 #endif
 }
 
-/// The name of a temporary where a signal handler finds it: it may neither allocate nor wait for a lock.
+/// The path of a temporary file for the signal handler, which may neither allocate nor wait for a lock.
 struct ListedName {
     enum State : int { kFree, kClaimed, kListed };
     std::atomic<int> state = kFree;
@@ -59,7 +59,7 @@ struct ListedName {
 static_assert(std::atomic<int>::is_always_lock_free);
 std::array<ListedName, 8> listedNames; ///< a program rarely writes two files at a time
 
-/// Lists a name for the signal handler while it lives; does nothing if all places are taken.
+/// Lists a path for the signal handler during its lifetime; does nothing if all slots are taken.
 class NameListing {
 public:
     explicit NameListing(const std::string& name) {
@@ -84,7 +84,7 @@ private:
     ListedName* place_ = nullptr;
 };
 
-/// A name of its own, because the target's with a suffix can exceed what the file system allows.
+/// A random name: the target's name with a suffix could exceed the file system's limit.
 fs::path temporaryName(const fs::path& folder) {
     std::random_device random;
     return folder / fmt::format(".tessera-{:08x}{:08x}.tmp", random(), random());
@@ -103,10 +103,10 @@ std::FILE* createFile(const fs::path& path, const fs::file_status& earlier) {
 #endif
 }
 
-/// A new file beside the target, gone again unless it has taken the target's name.
+/// A temporary file beside the target, removed by the destructor unless renamed to it.
 class Temporary {
 public:
-    /// `earlier` is the file that it may replace.
+    /// `earlier`: status of the file that it may replace.
     Temporary(const fs::path& folder, const fs::file_status& earlier, const std::string& shownPath)
         : path_(temporaryName(folder)), listing_(path_.string()), file_(createFile(path_, earlier)) {
         if (file_ == nullptr) failWithErrno(shownPath, errno);
@@ -129,12 +129,12 @@ public:
 
 private:
     fs::path path_;
-    NameListing listing_; ///< before the file exists and until it is gone or renamed
+    NameListing listing_; ///< listed before the file exists, until it is removed or renamed
     std::FILE* file_;
     bool renamed_ = false;
 };
 
-/// Where the bytes go: into a file that replaces `target`, or straight into a device or pipe.
+/// Destination of the bytes: a file that replaces `target`, or a device or pipe written directly.
 struct Place {
     fs::file_status status;
     bool isStream;
@@ -152,8 +152,8 @@ Place placeOf(const std::string& path) {
     if (fs::exists(status) && (!fs::is_regular_file(status) || path.starts_with("/dev/")))
         return {status, true, path, {}};
 
-    // Through links, also to a file that is not there yet.
-    constexpr int kMostLinks = 40; // as Linux allows
+    // Follows links, also to a file that does not exist yet.
+    constexpr int kMostLinks = 40; // limit of Linux
     fs::path target = path;
     for (int links = 0; fs::is_symlink(fs::symlink_status(target, ignored)); ++links) {
         std::error_code error;

@@ -1,19 +1,19 @@
 #pragma once
 
-/// Signals that ask for the program's end, where work would be lost if it ended at once.
+/// Deferred termination by signals, where an immediate end would lose work.
 namespace tessera {
 
-/// Whether the end waits: such a signal is then noted, and who holds the end looks for it (notedEnd()) often.
+/// Starts or stops deferring termination. While deferred, signals are recorded; the caller must poll notedEnd() often.
 void holdEnd(bool isHeld) noexcept;
 
-/// Notes a signal where the end is held; false, and nothing is noted, where it is not. Async-signal-safe.
+/// Records a signal if termination is deferred, else returns false. Async-signal-safe.
 bool noteEnd(int signal) noexcept;
 
-/// The signal that was noted; 0: none.
+/// The recorded signal; 0: none.
 int notedEnd() noexcept;
 
-/// Ends the program by the signal that was noted, so that a shell sees why, without files that are not written whole.
-/// To be called once the handler of that signal is the system's own again.
+/// Removes partially written files and ends the program by the recorded signal, so that a shell sees the cause. Call
+/// only after the signal's default action is restored.
 void endAsNoted();
 
 } // namespace tessera

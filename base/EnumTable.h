@@ -3,8 +3,8 @@
 
 namespace tessera {
 
-/// Whether row i of a table is that of value i of an enumeration with `count` values: then the table is looked up by
-/// index. To be asserted where the table stands.
+/// Whether row i of a table describes value i of an enumeration with `count` values, so that values index the table.
+/// Assert it next to the table.
 template <typename Table, typename Row, typename Enum>
 constexpr bool isInOrder(const Table& table, Enum Row::*key, std::size_t count) {
     std::size_t row = 0;

@@ -4,8 +4,8 @@
 
 namespace tessera {
 
-/// What the user gave cannot be used: a missing or broken file, an unknown name, a value out of range. The text names
-/// the file, the place in it and the remedy; programs print it as one line and exit with code 2.
+/// Unusable user input: a missing or broken file, an unknown name, a value out of range. The text names the file, the
+/// position in it and the remedy; programs print it as one line and exit with code 2.
 class InputError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;

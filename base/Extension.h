@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-/// What a file's name ends in, with its dot and in small letters: ".png" for "a.PNG". Names mean the same in any case.
+/// File extension with its dot, in lower case: ".png" for "a.PNG". Extensions are case-insensitive.
 inline std::string extensionOf(const std::filesystem::path& file) {
     return inLowercase(file.extension().string());
 }

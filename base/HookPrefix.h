@@ -3,8 +3,7 @@
 
 namespace tessera {
 
-/// What programs put before the names that a scene's hook declares (docs/hooks.md), so that none is one of the
-/// program's.
+/// Prefix that shader programs give to names declared by a scene's hook (docs/hooks.md), to avoid collisions.
 inline constexpr std::string_view kHookPrefix = "ofHook";
 
 } // namespace tessera

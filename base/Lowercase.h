@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-/// Letters of ASCII, case aside. Other bytes stay as they are, whatever the locale.
+/// Case-insensitive ASCII text. Other bytes are unchanged, whatever the locale.
 namespace tessera {
 
 constexpr char inLowercase(char c) {

@@ -5,7 +5,7 @@
 
 namespace tessera {
 
-/// The upper median of numbers, 0 of none.
+/// The upper median; 0 for an empty list.
 inline double medianOf(std::vector<double> numbers) {
     if (numbers.empty()) return 0.0;
     const auto middle = numbers.begin() + std::ptrdiff_t(numbers.size() / 2);

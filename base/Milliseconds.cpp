@@ -5,8 +5,8 @@
 namespace tessera {
 
 std::string millisecondsText(double milliseconds) {
-    constexpr double kThousand = 999.5; // what three digits round to 1e+03
-    constexpr double kShortest = 1e-4;  // three digits of less are a power of ten too
+    constexpr double kThousand = 999.5; // from here on, three digits round to 1e+03
+    constexpr double kShortest = 1e-4;  // below, three digits are in scientific notation too
     if (milliseconds >= kThousand) return fmt::format("{:.0f}", milliseconds);
     return milliseconds < kShortest ? "0" : fmt::format("{:.3g}", milliseconds);
 }

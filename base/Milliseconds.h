@@ -3,8 +3,8 @@
 
 namespace tessera {
 
-/// A time in milliseconds to three digits, or to a whole one from 1000 on, never as a power of ten: "0.0123", "12.3",
-/// "6750". Its unit is written behind it.
+/// Formats milliseconds with three significant digits, as an integer from 1000 on, never in scientific notation:
+/// "0.0123", "12.3", "6750". The caller appends the unit.
 std::string millisecondsText(double milliseconds);
 
 } // namespace tessera

@@ -9,9 +9,9 @@
 namespace tessera {
 namespace {
 
-/// Letters inserted, deleted, replaced or swapped with their neighbour to get from `a` to `b`, case aside.
-/// Source: Damerau 1964, "A technique for computer detection and correction of spelling errors", in the form that edits
-/// no place twice (optimal string alignment).
+/// Case-insensitive edit distance: insertions, deletions, replacements and swaps of neighbours from `a` to `b`.
+/// Source: Damerau 1964, "A technique for computer detection and correction of spelling errors", in the variant that
+/// edits no substring twice (optimal string alignment).
 std::size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> beforeLast(b.size() + 1);
     std::vector<std::size_t> last(b.size() + 1);
@@ -61,7 +61,7 @@ std::vector<std::string_view> nearestNames(std::string_view name, std::span<cons
         }
         if (distance == nearestDistance && nearest.size() < kMostSuggestions) nearest.push_back(candidate);
     }
-    // A word that was cut short.
+    // Abbreviations: candidates that begin with the name.
     constexpr std::size_t kShortestCut = 3;
     if (nearestDistance <= 1 && !nearest.empty()) return nearest;
     std::vector<std::string_view> longer;
@@ -77,8 +77,7 @@ std::string suggestNames(std::string_view name, std::span<const std::string_view
     if (candidates.empty()) return "there are none";
 
     std::string all = "valid are ";
-    constexpr std::size_t kMostListed =
-        64; // a table of the program's own is shown whole, a large scene's names are not
+    constexpr std::size_t kMostListed = 64; // lists the program's tables completely, a large scene's names partly
     const std::size_t listed = std::min(candidates.size(), kMostListed);
     for (std::size_t i = 0; i < listed; ++i) all.append(i > 0 ? ", " : "").append(candidates[i]);
     if (listed < candidates.size()) all += " and " + std::to_string(candidates.size() - listed) + " more";

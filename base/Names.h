@@ -6,8 +6,8 @@
 
 namespace tessera {
 
-/// At most three of the candidates: those that are one edit away from `name`; else those that begin with it; else those
-/// nearest by edit distance, none that is far from it. Names of more than 128 bytes are near none by edits.
+/// At most three candidates: those within one edit of `name`; else those that begin with it; else the nearest by edit
+/// distance, up to a third of the longer name. Names of more than 128 bytes are not compared by edits.
 std::vector<std::string_view> nearestNames(std::string_view name, std::span<const std::string_view> candidates);
 
 /// The end of an error message about an unknown name: "did you mean 'a' or 'b'?" of nearestNames(), or "valid are a, b,

@@ -8,7 +8,7 @@
 namespace tessera {
 
 PictureLibrary& PictureLibrary::get() {
-    // Found by the paths that the program was linked with, and never unloaded.
+    // Found by the program's run path; never unloaded.
     static PictureLibrary* const library = [] {
         void* const module = dlopen(TESSERA_PICTURE_MODULE, RTLD_NOW | RTLD_LOCAL);
         void* const make = module != nullptr ? dlsym(module, kMakePictureLibrary) : nullptr;

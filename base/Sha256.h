@@ -9,8 +9,8 @@ namespace tessera {
 
 using Sha256Digest = std::array<std::byte, 32>;
 
-/// SHA-256 of bytes that are given piece by piece, by libcrypto, which uses the processor's instructions for it: a map
-/// of 2048 columns has 32 MB. Source: NIST, FIPS 180-4.
+/// Incremental SHA-256 by libcrypto, which uses the processor's SHA instructions: a map of 2048 columns has 32 MB.
+/// Source: NIST, FIPS 180-4.
 class Sha256 {
 public:
     Sha256();
@@ -19,7 +19,7 @@ public:
     Sha256& operator=(const Sha256&) = delete;
 
     void add(std::span<const std::byte> bytes);
-    Sha256Digest digest(); ///< once
+    Sha256Digest digest(); ///< call once
 
 private:
     struct State;

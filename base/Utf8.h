@@ -4,7 +4,7 @@
 
 namespace tessera {
 
-/// How many bytes the letter at the beginning of a text has in UTF-8; 0 where there is none, as in other encodings.
+/// Length in bytes of the first UTF-8 character of a text; 0 if the text is empty or not UTF-8.
 /// Source: The Unicode Standard, table 3-7.
 inline std::size_t letterBytes(std::string_view text) {
     const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
@@ -25,7 +25,7 @@ inline std::size_t letterBytes(std::string_view text) {
     return 0;
 }
 
-/// The beginning of a UTF-8 text, of at most so many bytes, that ends with a whole letter.
+/// The longest prefix of at most `mostBytes` bytes that ends with a complete UTF-8 character.
 inline std::string_view beginningOf(std::string_view text, std::size_t mostBytes) {
     if (text.size() <= mostBytes) return text;
     constexpr std::size_t kLongestLetter = 4;
@@ -34,7 +34,7 @@ inline std::string_view beginningOf(std::string_view text, std::size_t mostBytes
     };
     std::size_t end = mostBytes;
     while (end > 0 && mostBytes - end < kLongestLetter && continuesLetter(end)) --end;
-    return text.substr(0, continuesLetter(end) ? mostBytes : end); // what is no UTF-8 ends anywhere
+    return text.substr(0, continuesLetter(end) ? mostBytes : end); // invalid UTF-8 is cut anywhere
 }
 
 } // namespace tessera

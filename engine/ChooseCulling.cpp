@@ -10,8 +10,8 @@ namespace {
 
 using culling::Method;
 
-/// Invocations that build a tile's lists together: all that hardware runs in step; one on software rasterisers, where
-/// those of a group take turns.
+/// Invocations that build a tile's lists together: a full subgroup on hardware; one on software rasterisers, which run
+/// the invocations of a group in turn.
 constexpr int kLanes = 64;
 constexpr int kSoftwareLanes = 1;
 
@@ -21,7 +21,7 @@ const char* builderReason(bool softwareBackend) {
                            : "the lists stay on the GPU: only their size is read back, not the depth buffer";
 }
 
-/// Why the lists of a frame hold lights behind their surfaces as well; empty where they need not.
+/// Why lists of a frame are not culled by normals; empty: they may be.
 std::string_view whyNotByNormals(Technique technique, bool prune, const frame::FeatureSet& features,
                                  const culling::Choice& choice) {
     if (!infoOf(choice.method).mayCullByNormals) return "the bitmasks of zbin are of all a tile or a bin shows";
@@ -33,7 +33,7 @@ std::string_view whyNotByNormals(Technique technique, bool prune, const frame::F
     return "";
 }
 
-/// Whether lists would leave anything out: some light must end somewhere, and some surface must be lit.
+/// Whether culling can remove anything: needs a bounded light and a lit surface.
 bool canCull(const frame::FeatureSet& features, const frame::PackedLights& lights) {
     return features.litModels() && lights.everywhere < lights.texels.size();
 }

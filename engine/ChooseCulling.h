@@ -10,17 +10,17 @@ namespace tessera::engine {
 
 bool takesMethod(Technique technique, culling::Method method);
 
-/// Whether a technique lights from light lists at all.
+/// Whether a technique uses light lists.
 bool hasLightLists(Technique technique);
-/// Whether it builds them once a G-buffer tells the surfaces' normals.
+/// Whether it builds them after a G-buffer, which provides normals.
 bool listsFromGBuffer(Technique technique);
 
-/// How a frame culls lights: the requested method, which the technique must take, else the fastest one measured on the
-/// backend; none where nothing can be culled (settings.prune).
+/// Resolves the light culling of a frame: the requested method, which the technique must support, else the technique's
+/// preferred one; none if nothing can be culled (settings.prune).
 culling::Choice chooseCulling(Technique technique, const frame::FrameSettings& settings,
                               const frame::FeatureSet& features, const frame::PackedLights& lights);
 
-/// The same in words, for a plan; empty for techniques without lists.
+/// Describes the choice for a plan; empty for techniques without lists.
 std::vector<graph::Plan::Choice> cullingChoices(Technique technique, const frame::FrameSettings& settings,
                                                 const frame::FeatureSet& features, const culling::Choice& choice);
 

@@ -7,10 +7,10 @@
 
 namespace tessera::engine {
 
-/// The stage of the lighting shaders: the requested one, which the technique must take, else fragment shaders.
+/// The stage of the lighting shaders: the requested one, which the technique must support, else fragment shaders.
 frame::LightingStage chooseLighting(const frame::FrameSettings& settings);
 
-/// The same in words, for a plan; none for techniques without the choice.
+/// Describes the choice for a plan; none for techniques without it.
 std::optional<graph::Plan::Choice> lightingChoice(Technique technique, const frame::FrameSettings& settings);
 
 } // namespace tessera::engine

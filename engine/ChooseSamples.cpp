@@ -36,7 +36,7 @@ int chooseSamples(const frame::FrameSettings& settings) {
     if (std::find(std::begin(counts), std::end(counts), settings.samples) == std::end(counts))
         throw InputError(
             fmt::format("samples {}: a pixel can have {} samples", settings.samples, fmt::join(counts, ", ")));
-    // No driver is asked for one sample: every texture can have it.
+    // One sample needs no driver query: every texture supports it.
     const bool wasAsked = settings.samples > 1 && !settings.samplePlaces.empty();
     return wasAsked ? int(settings.samplePlaces.size()) : settings.samples;
 }

@@ -11,14 +11,14 @@ namespace tessera::engine {
 
 bool takesSamples(const TechniqueInfo& info, int samples);
 
-/// The settings with everything that depends on the context filled in: the kind of backend, and the samples that the
-/// driver gives for those asked. Throws InputError when it has no render targets of so many samples.
+/// Completes the settings with properties of the context: the kind of backend, and the driver's sample positions for
+/// the requested count. Throws InputError if no render target supports so many samples.
 frame::FrameSettings settingsOn(const gpu::Capabilities& capabilities, frame::FrameSettings settings);
 
-/// The samples of a frame's render targets. Throws InputError unless those asked for are one of frame::kSampleCounts.
+/// The sample count of a frame's render targets. Throws InputError unless the requested one is in frame::kSampleCounts.
 int chooseSamples(const frame::FrameSettings& settings);
 
-/// The same in words, for a plan; empty for one sample per pixel.
+/// Describes the choice for a plan; empty for one sample per pixel.
 std::vector<graph::Plan::Choice> sampleChoices(const frame::FrameSettings& settings);
 
 } // namespace tessera::engine

@@ -20,7 +20,7 @@ int mostViewKey() {
     return std::ranges::max(frame::debugViewTable(), {}, &frame::DebugViewInfo::key).key;
 }
 
-/// Views also go by their numbers.
+/// Views can also be given by number.
 SettingValue viewChoice() {
     SettingValue value = choice(in(&FrameSettings::view), frame::debugViewTable(), &frame::DebugViewInfo::view);
     std::vector<ChoiceKind::Entry>& entries = std::get<ChoiceKind>(value.kind).entries;
@@ -65,14 +65,14 @@ SettingValue soloLight() {
         if (source.scene && (light < 0.0 || light >= double(count)))
             throw InputError(fmt::format("{} {}: {} has {} light{}, counted from 0", source.called, light,
                                          source.scene->name, count, count == 1 ? "" : "s"));
-        return int(std::clamp(light, -1.0, double(scenes::kMostLights))); // which no scene has
+        return int(std::clamp(light, -1.0, double(scenes::kMostLights))); // above the lights of any scene
     };
     return valueIn(
         in(&FrameSettings::soloLight), NumberKind{.least = 0.0, .isWhole = true},
         [](int light) { return numberText(light); }, valueOf, "all");
 }
 
-/// Those of the G-buffer's channels as one pattern.
+/// Names of all views, those of G-buffer channels as one pattern.
 std::string viewNames() {
     std::string names;
     for (const frame::DebugViewInfo& info : frame::debugViewTable())

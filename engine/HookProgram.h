@@ -9,22 +9,22 @@
 #include "renderer/shader/ProgramLibrary.h"
 #include "scenes/Hook.h"
 
-/// Functions of a scene's hook that run beside the frame, in compute shaders, and what they make is read back.
+/// Runs functions of a scene's hook in compute shaders, outside of frames, and reads their results back.
 namespace tessera::engine {
 
-/// What they are called: passes/<name>.comp.
+/// Program names; the source is passes/<name>.comp.
 inline constexpr const char* kHookSurfaces = "hook_surfaces";
 inline constexpr const char* kHookVertices = "hook_vertices";
 shader::ProgramDesc hookProgram(const std::string& name, const scenes::Hook& hook);
 
-/// One of them at a time; its program is in use as long as no other is.
+/// A bound hook program, valid until another program is used.
 class HookRun {
 public:
     /// Throws InputError where the hook is faulty.
     HookRun(const std::string& name, const scenes::Hook& hook, double timeSeconds, shader::ProgramLibrary& programs);
 
-    /// Runs the hook on `count` items and returns a row an item. The slots are those of its storage blocks. Throws
-    /// InputError where loops of the hook were ended early.
+    /// Runs the hook on `count` items and returns one row per item. The slots are those of its storage blocks. Throws
+    /// InputError if loops of the hook were truncated.
     template <typename Row>
     std::vector<Row> run(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot,
                          std::size_t count) const {
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    /// The buffer of so many bytes that it has written.
+    /// Runs the hook and returns its output buffer of `bytes`.
     gpu::Buffer runInto(std::uint32_t givenSlot, const gpu::Buffer& given, std::uint32_t takenSlot, std::size_t count,
                         std::size_t bytes) const;
 

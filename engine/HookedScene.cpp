@@ -18,10 +18,10 @@ namespace tessera::engine {
 
 namespace {
 
-/// At once: 32 MiB, a quarter of what OpenGL guarantees a storage block.
+/// Vertices per dispatch: 32 MiB, a quarter of the storage block size that OpenGL guarantees.
 constexpr std::size_t kMostAtOnce = std::size_t(1) << 20;
 
-/// Vertices from `first` on, `count` of them.
+/// Rest positions, normals and coordinates of `count` vertices, starting at `first`.
 std::vector<shared::HookVertexRow> restOf(const scenes::Mesh& mesh, std::size_t first, std::size_t count) {
     std::vector<shared::HookVertexRow> rest;
     rest.reserve(count);
@@ -36,7 +36,7 @@ std::vector<shared::HookVertexRow> restOf(const scenes::Mesh& mesh, std::size_t 
 
 struct MovedVertices {
     std::vector<glm::vec3> positionsOS, normalsOS;
-    std::vector<glm::vec4> colors; ///< the mesh's own, with marks where there are any
+    std::vector<glm::vec4> colors; ///< the mesh's, with flagged opacities if there are any
 };
 
 void mark(std::size_t vertex, std::size_t vertices, float opacity, std::vector<glm::vec4>& colors) {
@@ -44,7 +44,7 @@ void mark(std::size_t vertex, std::size_t vertices, float opacity, std::vector<g
     colors[vertex].a = opacity;
 }
 
-/// What is farther from its place counts as nowhere: no scene reaches there.
+/// Larger displacements count as HOOK_MARK_NOWHERE: no scene extends that far.
 constexpr double kFarthestMarkedMetres = 1e6;
 
 constexpr std::string_view kNoNumberRemedy =
@@ -82,7 +82,7 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
             const glm::vec3 normal(normalOS[0], normalOS[1], normalOS[2]);
             const glm::vec3& rest = mesh.positionsOS[first + i];
             const double metres = glm::distance(glm::dvec3(position), glm::dvec3(rest));
-            // What rounding to fp32 adds to a movement just as long.
+            // Tolerance for the fp32 rounding of a displacement at the limit.
             const double leeway = 1e-6 * (hook.mayMoveMetres + glm::length(glm::dvec3(rest)));
             const bool isTooFar = !(metres <= hook.mayMoveMetres + leeway);
             const bool hasNormal = isFinite(normal);
@@ -94,7 +94,7 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
             } else if (isTooFar || !hasNormal) {
                 throw InputError(excessText(hook, mesh, first + i, timeSeconds, metres, normal));
             }
-            // Keeps the rest normal where the new one has no length, or its square overflows.
+            // Keeps the rest normal if the new one is unchanged, has no length or is not finite.
             const glm::dvec3 direction(normal);
             const double length = glm::length(direction);
             const bool isKept = normal == mesh.normalsOS[first + i] || !(length > 0.0) || !std::isfinite(length);
@@ -134,7 +134,7 @@ HookedScene::Changed HookedScene::update(double timeSeconds, Excess excess, shad
 }
 
 void HookedScene::takeOthers() {
-    // Every member of a scene is named here, so that a new one is either taken or left.
+    // Names every member of Scene, so that a new one must be handled here.
     const auto& [name, images, materials, meshes, nodes, lights, cameras, rig, environment, hook, background, options,
                  supplied, variants, notes, warnings] = scene_;
     moved_.name = name;
@@ -146,19 +146,19 @@ void HookedScene::takeOthers() {
     moved_.options = options;
     moved_.hook = hook;
     moved_.hook->movesVertices = false;
-    if (moved_.environment && environment) { // how its map lies and shines
+    if (moved_.environment && environment) { // orientation and intensity of its map
         moved_.environment->intensity = environment->intensity;
         moved_.environment->rotationDegrees = environment->rotationDegrees;
     }
-    static_cast<void>(meshes); // moved, or taken by takeMeshes()
+    static_cast<void>(meshes); // displaced by update(), or copied by takeMeshes()
     static_cast<void>(images); // texels stay as they were loaded
     static_cast<void>(rig);    // has posed the scene already
     static_cast<void>(supplied);
-    for (const auto* words : {&variants, &notes, &warnings}) static_cast<void>(words); // nothing of the picture
+    for (const auto* words : {&variants, &notes, &warnings}) static_cast<void>(words); // not part of the image
 }
 
 void HookedScene::takeMeshes() {
-    std::vector<std::vector<glm::vec4>> marked; // colours, until update() has new ones
+    std::vector<std::vector<glm::vec4>> marked; // flagged colours, until update() replaces them
     for (const std::size_t mesh : meshes_) marked.push_back(std::move(moved_.meshes[mesh].colors));
     moved_.meshes = scene_.meshes;
     for (std::size_t i = 0; i < meshes_.size(); ++i) moved_.meshes[meshes_[i]].colors = std::move(marked[i]);

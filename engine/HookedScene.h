@@ -7,39 +7,39 @@
 
 namespace tessera::engine {
 
-/// What is done about vertices that are moved nowhere, or farther than the hook may move them.
+/// Handling of vertices that a hook moves to a non-finite position or beyond its limit.
 enum class Excess : std::uint8_t {
     Refuse,
-    /// A vertex that goes nowhere, to NaN or beyond 1000 km, stays in place. Opacities of vertex colours are
-    /// HOOK_MARK_TOO_FAR or HOOK_MARK_NOWHERE (shaders/shared/hook.h).
+    /// Flags vertices by colour opacities HOOK_MARK_TOO_FAR or HOOK_MARK_NOWHERE (shaders/shared/hook.h). Vertices
+    /// moved to NaN or beyond 1000 km stay in place.
     Mark
 };
 
-/// A scene whose hook moves vertices, with the vertices as they are at a time. The hook runs in a compute shader, and
-/// what it makes is read back: all passes, bounds, trees of casters and the reference take the same vertices.
+/// A copy of a scene with its vertices displaced by its hook at a given time. The hook runs in a compute shader and the
+/// result is read back, so that all passes, bounds, caster trees and the reference use the same vertices.
 class HookedScene {
 public:
-    /// The scene must outlive the object. Nothing is moved yet.
+    /// The scene must outlive the object. Vertices are not displaced yet.
     explicit HookedScene(const scenes::Scene& scene);
 
-    /// The scene with moved vertices; its hook no longer says that it moves any once update() has.
+    /// The scene with displaced vertices. After update(), its hook has movesVertices == false.
     const scenes::Scene& scene() const { return moved_; }
 
     struct Changed {
         bool vertices = false; ///< a position or a normal
-        bool colors = false;   ///< of vertices: others are marked
+        bool colors = false;   ///< a vertex colour: other vertices are flagged
     };
-    /// Takes the scene's lights, cameras, materials and nodes as they are, and its vertices as the hook has them at
-    /// that time. Throws InputError where the hook is faulty, and where a vertex is nowhere or farther from its place
-    /// than the hook may move it, unless those are marked; then all is as it was.
+    /// Copies the scene's lights, cameras, materials and nodes, and displaces its vertices by the hook at that time.
+    /// Throws InputError if the hook is faulty or, with Excess::Refuse, if a position or normal is not finite or a
+    /// vertex moves beyond the hook's limit. The object is then unchanged.
     Changed update(double timeSeconds, Excess excess, shader::ProgramLibrary& programs);
-    /// To be called after vertices of the scene itself were changed.
+    /// Copies the meshes again. Call after vertices of the source scene were changed.
     void takeMeshes();
-    /// To be called after the scene got another map of its environment.
+    /// Call after the scene's environment map was replaced.
     void takeEnvironment() { moved_.environment = scene_.environment; }
 
 private:
-    /// All of the scene that is neither moved nor large.
+    /// Copies everything that is neither displaced nor large.
     void takeOthers();
 
     const scenes::Scene& scene_;

@@ -9,7 +9,7 @@
 namespace tessera::engine {
 namespace {
 
-/// At once: 56 MiB, less than the 128 that OpenGL guarantees a storage block.
+/// Points per dispatch: 60 MiB, less than the 128 MiB that OpenGL guarantees for a storage block.
 constexpr std::size_t kMostPointsAtOnce = std::size_t(1) << 20;
 
 std::vector<shared::HookPointRow> rowsOf(std::span<const scenes::HookPoint> points) {

@@ -7,8 +7,8 @@
 
 namespace tessera::engine {
 
-/// What a hook's hookSurface() makes of surfaces at a time, by point: its own text, in a compute shader, and no bounds.
-/// Throws InputError where the hook is faulty.
+/// Evaluates a hook's hookSurface() at points and a time, by running its source in a compute shader. Returns values by
+/// point, not bounds. Throws InputError if the hook is faulty.
 std::vector<scenes::HookedSurface> hookedSurfaces(const scenes::Hook& hook, double timeSeconds,
                                                   std::span<const scenes::HookPoint> points,
                                                   shader::ProgramLibrary& programs);

@@ -37,7 +37,7 @@ std::string truncationWords(const frame::TruncatedLights& lights, double toleran
     return words;
 }
 
-/// Channels that are stored finer than the layout that was asked for says.
+/// Adds channels that are stored more precisely than in the requested layout.
 void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::GBufferLayout& asked,
                     const frame::FrameSpec& spec) {
     for (const frame::Refinement& refinement : frame::refinements(asked, scene, spec.settings.subsurface)) {
@@ -49,7 +49,7 @@ void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::
     }
 }
 
-/// How the light of areas is found.
+/// Describes the shading of area lights.
 graph::Plan::Choice areaChoice(const frame::FrameSpec& spec) {
     const std::string name(infoOf(spec.settings.area.lights).name);
     const std::string why = fmt::format("light of {} with a surface", frame::lightsText(spec.areaLights));
@@ -59,7 +59,7 @@ graph::Plan::Choice areaChoice(const frame::FrameSpec& spec) {
                         spec.settings.area.samples == 1 ? "" : "s")};
 }
 
-/// What spreading light costs: atlases, and of each object how many levels.
+/// Describes the cost of diffusion: atlases, and levels of each object.
 graph::Plan::Choice spreadChoice(const frame::PreparedView& prepared) {
     constexpr std::size_t kMostNamed = 4;
     std::vector<std::string> words;
@@ -158,7 +158,7 @@ countersOf(const scenes::Scene& scene, const frame::PreparedView& prepared, bool
             {"pixels", std::uint64_t(size.x) * std::uint64_t(size.y)}};
 }
 
-/// What is left out, chosen and counted for a view, under names that end in `suffix`.
+/// Adds a view's omitted parts, choices and counters, with names that end in `suffix`.
 void addView(graph::Plan& plan, const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
              const frame::PreparedView& prepared, const std::string& suffix) {
     const bool storesSurfaces =
@@ -198,7 +198,7 @@ graph::Plan planViews(const scenes::Scene& scene, std::span<const ViewRequest> v
     for (std::size_t i = 0; i < views.size(); ++i) {
         const ViewRequest& view = views[i];
         plan.technique += (i == 0 ? "" : ", ") + std::string(infoOf(view.technique).name);
-        // As the graph calls what later views have of their own.
+        // The graph names resources of later views the same way.
         addView(plan, scene, view.technique, view.settings, prepared[i], i == 0 ? "" : fmt::format(" ({})", i + 1));
     }
     return plan;

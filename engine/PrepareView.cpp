@@ -47,7 +47,7 @@ std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSetting
 
 namespace {
 
-/// Why maps, or the rounding of casters, lose shadows of a view; empty: they do not.
+/// Warning: shadows lost by the map budget or by rounding of casters or maps; empty if none.
 std::string shadowsLostByRounding(std::span<const frame::SurfaceBounds> bounds, const frame::PreparedView& prepared) {
     const frame::ShadowMaps& maps = prepared.shadowMaps;
     if (std::string lost = lostShadows(maps, prepared.spec.settings); !lost.empty()) return lost;
@@ -66,8 +66,8 @@ std::string shadowsLostByRounding(std::span<const frame::SurfaceBounds> bounds, 
                        settingOf("shadowBudget").flag);
 }
 
-/// A penumbra in a map reaches as far as an eighth of its side, a third of the radius of the ball that the map is made
-/// for. At this angular radius that is the penumbra of a caster 0.58 of the radius away.
+/// A penumbra in a map extends at most an eighth of the map's side, a third of the radius of the sphere that the map
+/// covers. At this angular radius, a caster at 0.58 of that radius has such a penumbra.
 constexpr double kWidestPcssRadians = std::numbers::pi / 6.0;
 
 /// Warning: a sun whose penumbrae exceed the search radius of pcss; empty if there is none.
@@ -86,7 +86,7 @@ std::string penumbraeTooWide(const scenes::Scene& scene, const frame::PreparedVi
     return "";
 }
 
-/// What is said of an object that light spreads over, which has lights and maps of its own.
+/// Prefixes a warning about an object lit for diffusion, which has separate lights and shadow maps.
 std::string ofObject(const frame::SpreadingObject& object, const std::string& said) {
     return said.empty() ? "" : fmt::format("when lighting {} for diffusion: {}", object.name, said);
 }
@@ -191,8 +191,8 @@ void addEnvironment(const scenes::Scene& scene, frame::PreparedView& prepared) {
     prepared.environment = frame::packEnvironment(*scene.environment, prepared.spec.settings, prepared.camera);
 }
 
-/// Finds the lights that reach what the view's camera sees, and what its surfaces are lit with. `makeSpec` makes the
-/// spec of them.
+/// Finds the lights that reach the camera's view, and other inputs of its lighting. `makeSpec` makes the spec from the
+/// lights.
 template <typename MakeSpec>
 void lightView(const scenes::Scene& scene, const frame::FrameSettings& settings, const MakeSpec& makeSpec,
                frame::PreparedView& prepared) {
@@ -205,8 +205,8 @@ void lightView(const scenes::Scene& scene, const frame::FrameSettings& settings,
     if (scene.hook) prepared.hook = frame::hookConstants(*scene.hook, settings.timeSeconds);
 }
 
-/// The lights of an object's texels: a view of the whole of it, so that what reaches it nowhere is left out, whatever
-/// the camera sees.
+/// Prepares the diffusion view that lights an object's texels. Its camera covers the whole object, so that lights are
+/// culled against the object, independent of the frame's camera.
 frame::PreparedView prepareSpreading(const scenes::Scene& scene, const frame::SpreadingObject& object,
                                      frame::FrameSettings settings, std::span<const frame::SurfaceBounds> bounds) {
     settings.sizePixels = glm::ivec2(settings.diffusion.sideTexels);

@@ -7,24 +7,24 @@
 
 namespace tessera::engine {
 
-/// Throws InputError when the settings name a camera or light that the scene lacks, a size or number of samples that no
-/// picture has, a range tolerance that is negative or not finite, or a setting that the technique cannot draw. Whoever
-/// draws the view hands over the scene's bounds.
+/// Prepares a view. Throws InputError for a camera or light that the scene lacks, an invalid size or sample count, a
+/// range tolerance that is negative or not finite, or a setting that the technique cannot draw. `bounds` are those of
+/// the scene; only plans leave them out.
 frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique, const frame::FrameSettings& settings,
                                 std::span<const frame::SurfaceBounds> bounds = {});
 
-/// Throws InputError where views differ in a setting that all views of a frame share (Setting::isOfFrame), and
-/// std::logic_error where there is no view.
+/// Throws InputError if views differ in a setting that all views of a frame share (Setting::isOfFrame), and
+/// std::logic_error if there is no view.
 void requireOneFrame(std::span<const ViewRequest> views);
 
-/// Which lights cast no shadows, since the budget has no room for their maps, and what to do; empty: none.
+/// Warning: lights whose shadow maps exceed the budget, with a remedy; empty if none.
 std::string lostShadows(const frame::ShadowMaps& maps, const frame::FrameSettings& settings);
-/// Why the view shows fewer shadows than were asked for; empty: it shows them all.
-/// `bounds` are of everything drawn.
+/// Warning: why the view shows fewer shadows than requested; empty if none are missing. `bounds` are of everything
+/// drawn.
 std::string missingShadows(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
                            const frame::PreparedView& prepared);
-/// Over which objects light is asked to spread and does not, since their texels are larger than all widths of their
-/// profiles, and what to do; empty: over none.
+/// Warning: objects whose requested diffusion has no effect, since texels are larger than all widths of their profiles,
+/// with a remedy; empty if none.
 std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& prepared);
 /// Warning: loops of shadows or of area light samples may exceed Mesa's iteration limit. `why` names cause and remedy;
 /// it is empty within the limit.
@@ -34,7 +34,7 @@ struct CutShadows {
 };
 CutShadows cutShadows(const frame::PreparedView& prepared);
 
-/// The camera that the settings ask for, where they put it.
+/// The camera of the settings, at their eye offset.
 scenes::Camera frameCamera(const scenes::Scene& scene, const frame::FrameSettings& settings);
 
 } // namespace tessera::engine

@@ -20,7 +20,7 @@ namespace tessera::engine {
 
 namespace {
 
-/// GL's rows run from the bottom.
+/// Flips rows, since GL's run bottom-up.
 template <typename T>
 std::vector<T> flipped(const std::vector<T>& rows, int width, int height) {
     std::vector<T> result(rows.size());
@@ -32,13 +32,13 @@ std::vector<T> flipped(const std::vector<T>& rows, int width, int height) {
     return result;
 }
 
-/// Looks at every text of a hook as loading its scene did: an edit may have made it break its promises.
+/// Checks every hook source as loading the scene did, since an edit may have added forbidden constructs.
 shader::SourceTree checkingHooks(shader::SourceTree shaders) {
     shaders.prepareHooks(scenes::hookProgramText);
     return shaders;
 }
 
-/// The resource of this name in plans, if the passes that run leave its newest version.
+/// The resource of this plan name, if a pass that runs uses its newest version.
 std::optional<std::uint32_t> findUsed(const graph::Graph& graph, const graph::CompiledGraph& compiled,
                                       const std::string& name) {
     if (name.empty()) return std::nullopt;
@@ -96,7 +96,7 @@ const frame::SceneGpu& Renderer::sceneGpu(const frame::FrameSpec& spec) {
         return uploaded.features == features && uploaded.filter == filter && uploaded.subsurface == subsurface;
     });
     if (found == uploaded_.end()) {
-        if (uploaded_.size() == kMostUploaded) uploaded_.pop_back(); // before there are three
+        if (uploaded_.size() == kMostUploaded) uploaded_.pop_back(); // at most two at once
         frame::FeatureSet uploads = features;
         if (spec.features[frame::Feature::Shadows]) uploads.add(frame::Feature::Shadows);
         auto scene = std::make_unique<frame::SceneGpu>(shown_, closedMeshes_, uploads, filter, subsurface);
@@ -128,12 +128,12 @@ const scenes::Scene& Renderer::sceneAt(double timeSeconds, Excess excess) {
     if (!hooked_) return shown_;
     const HookedScene::Changed changed = hooked_->update(timeSeconds, excess, programs_);
     if (changed.vertices || changed.colors) forgetGeometry();
-    if (changed.colors) uploaded_.clear(); // colours are attributes, and decide on features
+    if (changed.colors) uploaded_.clear(); // colours are a vertex attribute and affect features
     return shown_;
 }
 
 void Renderer::forgetGeometry() {
-    drawn_.reset(); // it points at atlases
+    drawn_.reset(); // it references atlases
     bounds_ = frame::surfaceBounds(shown_);
     closedMeshes_.verticesMoved();
     uvAtlases_.forget();
@@ -147,15 +147,15 @@ void Renderer::forgetReloaded() {
     shadowMemories_.forget();
 }
 
-/// What the view's shadows ask of the scene.
+/// Creates the scene data that the view's shadows need.
 void Renderer::makeForShadows(const frame::FrameSpec& spec) {
     frame::SceneGpu& scene = *uploaded_.front().scene;
     if (spec.features[frame::Feature::Shadows]) scene.makeFacetNormals();
     if (spec.tracesShadows()) scene.makeCasters();
 }
 
-/// Tiles of an object's atlas that the view may look up. With several samples a pixel coordinates may lie outside of
-/// their triangle, anywhere in the atlas.
+/// Tiles of an object's atlas that the view may sample. With several samples per pixel, texture coordinates are
+/// extrapolated beyond their triangle, to anywhere in the atlas.
 frame::TileSet Renderer::seenTiles(const frame::SpreadingObject& object, const frame::GpuUvAtlas& atlas,
                                    const frame::DrawnView& view) const {
     const frame::DrawList& list = view.scene->drawList();
@@ -196,7 +196,7 @@ void Renderer::addSpreadingViews(std::size_t number, frame::DrawnView& view) {
         own.uvAtlas = &uvAtlases_.of(object, spec.spreadTexels(), spec.gutterTexels);
         own.key = frame::diffusionKey(shown_, object, own.drawn.prepared, view.scene->casterRevision());
         own.seen = seenTiles(object, *own.uvAtlas, view);
-        // A frame that sees nothing new does not read it, but the next one may.
+        // Kept even if this frame does not read it: the next one may.
         for (const std::string& name : passes::DiffusionPasses::keptNames(number, cell)) backend_.keep(name);
     }
 }
@@ -268,7 +268,7 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         drawn->compiled = graph::compile(drawn->graph, options);
     }
     programs_.warm(drawn->compiled.programs);
-    drawn_.reset(); // its pictures go back to the pool
+    drawn_.reset(); // returns its textures to the pool
     auto execution = std::make_unique<graph::Execution>(drawn->graph, drawn->compiled, backend_, &programs_);
     execution->run();
     drawn->execution = std::move(execution);
@@ -379,7 +379,7 @@ DrawnShadows Renderer::shadows(std::size_t view) const {
     const frame::PreparedView& prepared = drawnView.prepared;
     DrawnShadows drawn;
     drawn.hasMaps = prepared.spec.features[frame::Feature::ShadowMaps];
-    // Lights that casters may hide come first.
+    // Shadowed lights come first.
     for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) drawn.lights.push_back({prepared.lights.sceneIndex[i]});
     if (const auto shown = std::size_t(prepared.lights.shown); shown < drawn.lights.size()) drawn.shown = shown;
     drawn.cut = cutShadows(prepared).why;

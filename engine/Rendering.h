@@ -4,12 +4,12 @@
 
 namespace tessera::engine {
 
-/// Rendered frames as the pictures that are compared, written and shown.
+/// Converts rendered frames to images for comparison, files and display.
 Picture toPicture(const RenderedFrame& frame);
 DisplayImage toDisplayImage(const RenderedFrame& frame);
 
-/// Linear radiance with the exposure and tone map of the settings, as the display pass shows it: for pictures that no
-/// pass drew, such as the reference's. NaN is black.
+/// Applies exposure and tone map of the settings to linear radiance as the display pass does, for images that no pass
+/// drew, such as the reference's. NaN becomes black.
 DisplayImage toDisplayImage(const Picture& picture, const frame::FrameSettings& settings);
 
 } // namespace tessera::engine

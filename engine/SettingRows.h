@@ -8,14 +8,14 @@
 
 #include "engine/Settings.h"
 
-/// The rows of settingTable(), by what they are about, in the order of help and panels.
+/// The rows of settingTable() by topic, in the order of --help and panels.
 namespace tessera::engine {
 
-std::vector<Setting> frameSettings(); ///< who draws, how large, from where and what
+std::vector<Setting> frameSettings(); ///< technique, culling, size, samples, camera, area lights, view
 std::vector<Setting> environmentSettings();
 std::vector<Setting> shadowSettings();
 std::vector<Setting> subsurfaceSettings();
-std::vector<Setting> pictureSettings(); ///< what of a pixel is computed, and how it is shown
+std::vector<Setting> pictureSettings(); ///< shading terms, filtering, exposure and tone map
 
 // ---- For their help ------------------------------------------------------------------------------------------------
 

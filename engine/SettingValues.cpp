@@ -12,7 +12,7 @@ std::string numberText(int value) {
 }
 std::string numberText(float value) {
     const std::string text = fmt::format("{}", value);
-    // Read as a double and rounded to single, text beside the middle of two floats may end up at the other one.
+    // Text is read as double, then rounded to float. Near the middle of two floats that may give the other one.
     return static_cast<float>(parsed<double>(text).value_or(0.0)) == value ? text
                                                                            : numberText(static_cast<double>(value));
 }

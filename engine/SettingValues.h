@@ -17,7 +17,7 @@
 #include "base/Names.h"
 #include "engine/Settings.h"
 
-/// What the rows of the settings table make their values of: where a value is, and of which kind.
+/// Building blocks of the settings table: access to values, and kinds of values.
 namespace tessera::engine {
 
 // ---- Where a value is ----------------------------------------------------------------------------------------------
@@ -64,7 +64,7 @@ auto in(Value culling::Settings::*member) {
     };
 }
 
-// Values that may be left open are optional.
+// Values that may be unset are optional.
 template <typename Value>
 const Value* given(const Value& value) {
     return &value;
@@ -80,7 +80,7 @@ constexpr bool kIsOptional<std::optional<Value>> = true;
 
 // ---- Numbers as text ------------------------------------------------------------------------------------------------
 
-/// The whole text as a number; none: it is something else.
+/// Parses the whole text as a number; none if it is something else.
 template <typename Number>
 std::optional<Number> parsed(const std::string& text) {
     Number value{};
@@ -90,7 +90,7 @@ std::optional<Number> parsed(const std::string& text) {
     return value;
 }
 
-/// The number with the fewest digits that is read as the same one, to the last bit.
+/// The shortest text that parses to the same number, to the last bit.
 std::string numberText(double value);
 std::string numberText(int value);
 std::string numberText(float value);
@@ -98,18 +98,18 @@ std::string numberText(float value);
 /// "1 to 1024", "0 or more".
 std::string boundsText(const NumberKind& kind);
 
-/// The text as a whole number of any size; none: it is something else.
+/// Parses a whole number of any size; none if the text is something else.
 std::optional<double> wholeNumberIn(const std::string& text);
-/// The same. Throws InputError where it is something else.
+/// The same. Throws InputError if the text is something else.
 double wholeNumber(const std::string& text, const TextSource& source);
-/// Throws InputError that says what the number should be. Whole ones are also held to those of an int.
+/// Throws InputError with the valid range if the value is outside of it. Whole numbers must also fit into an int.
 void requireBounds(const NumberKind& kind, double value, const TextSource& source);
 
 // ---- Kinds of values -----------------------------------------------------------------------------------------------
 
 inline constexpr std::string_view kOpen = "automatic";
 
-/// What every kind has in common. `textOf` and `valueOf` are of a value that is given.
+/// Makes a setting value of any kind. `textOf` and `valueOf` convert values that are set.
 template <typename Get, typename TextOf, typename ValueOf>
 SettingValue valueIn(Get get, SettingKind kind, TextOf textOf, ValueOf valueOf, std::string_view open = kOpen) {
     using Value = std::remove_reference_t<decltype(get(std::declval<ViewRequest&>()))>;
@@ -132,7 +132,7 @@ SettingValue valueIn(Get get, SettingKind kind, TextOf textOf, ValueOf valueOf, 
     return value;
 }
 
-/// What a row of a table says of itself beside its name.
+/// The description in a table's row.
 template <typename Row>
 std::string_view meaningOf(const Row& row) {
     if constexpr (requires { row.summary; })
@@ -145,7 +145,7 @@ std::string_view meaningOf(const Row& row) {
         return "";
 }
 
-/// One of a table's rows; `key` is the row's value, and `open` what is said of a value that may be left open.
+/// A choice among a table's rows; `key` is the row's value, and `open` the text of an unset value.
 template <typename Get, typename Row, typename Key>
 SettingValue choice(Get get, std::span<const Row> table, Key Row::*key, std::string_view open = kOpen) {
     ChoiceKind kind;
@@ -165,7 +165,7 @@ SettingValue choice(Get get, std::span<const Row> table, Key Row::*key, std::str
     return valueIn(get, std::move(kind), textOf, valueOf, open);
 }
 
-/// One of some whole numbers.
+/// A choice among whole numbers.
 template <typename Get>
 SettingValue choice(Get get, std::span<const int> numbers, std::string_view unit = "") {
     ChoiceKind kind{{}, true};

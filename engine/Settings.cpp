@@ -36,7 +36,7 @@ std::string refusalOf(const Setting& setting, const ViewRequest& request) {
                        fmt::join(able, ", "));
 }
 
-/// "Only hard, pcf and pcss heed it": the rows of that kind, which some are.
+/// "Only hard, pcf and pcss heed it": lists the rows that satisfy `isOne`, at least one.
 template <typename Row, typename IsOne>
 std::string onlyHeededBy(std::span<const Row> table, const IsOne& isOne) {
     std::vector<std::string_view> able;
@@ -48,7 +48,7 @@ std::string onlyHeededBy(std::span<const Row> table, const IsOne& isOne) {
     return fmt::format("Only {} {} it", names, able.size() == 1 ? "heeds" : "heed");
 }
 
-// ---- What scenes ask for -------------------------------------------------------------------------------------------
+// ---- Options of scene files -----------------------------------------------------------------------------------------
 
 std::string_view typeOf(const scenes::Wish& wish) {
     constexpr std::string_view kTypes[] = {"true or false", "a number", "text", "an array"};
@@ -63,7 +63,7 @@ std::string_view typeOf(const Setting& setting) {
     return std::holds_alternative<SizeKind>(kind) ? "an array" : "text";
 }
 
-/// A wish as the command line would say it.
+/// Converts an option of a scene file to its text on the command line.
 std::string textOf(const Setting& setting, const scenes::Wish& wish) {
     const std::string* const word = std::get_if<std::string>(&wish);
     const bool isOpen = word != nullptr && !setting.value.open.empty() && *word == setting.value.open;
@@ -113,7 +113,7 @@ std::string Setting::whyIdle(const ViewRequest& request, const scenes::Scene* sc
 
 std::string Setting::whyIgnored(const ViewRequest& request, std::span<const Technique> techniques) const {
     const auto isHeeded = [this](Technique technique) { return isHeededBy(technique); };
-    // A value that only some can draw is what the others do by themselves.
+    // With `takes` or a refusal, a technique either refuses a value or behaves that way by default; it ignores none.
     const bool mayCount = techniques.empty() || isDefault(request) || takes != nullptr || !refusal.empty();
     if (mayCount || std::ranges::any_of(techniques, isHeeded)) return {};
     std::vector<std::string_view> names;
@@ -175,7 +175,7 @@ void takeWishes(const scenes::Scene& scene, const std::string& file, ViewRequest
                 fmt::format("{}:/options: an options object has no key '{}'; {}", file, key, suggestNames(key, keys)));
     for (const Setting& setting : settingTable()) {
         const auto found = options.wishes.find(setting.key);
-        const bool isCamera = setting.key == "camera" && options.camera; // which the scene needs to know itself
+        const bool isCamera = setting.key == "camera" && options.camera; // stored beside the other options
         if (found == options.wishes.end() && !isCamera) continue;
         try {
             const std::string text = isCamera ? *options.camera : textOf(setting, found->second);

@@ -11,41 +11,41 @@
 #include "renderer/frame/FrameSettings.h"
 #include "scenes/Scene.h"
 
-/// Settings: the options of a frame, a row each. These follow from the rows: the command line with its help and
-/// messages, the options of scene files and their schema, printed and copied commands, and the viewer's widgets,
-/// comparisons and preferences (docs/add-a-setting.md).
+/// Settings: the options of a frame, one row each. The rows define the command line with its help and messages, the
+/// options of scene files and their schema, printed and copied commands, and the viewer's widgets, comparisons and
+/// preferences (docs/add-a-setting.md).
 namespace tessera::engine {
 
-/// A request for a view of a scene: a technique, and the settings of its pictures.
+/// A requested view of a scene: technique and settings.
 struct ViewRequest {
     Technique technique = Technique::Deferred;
     frame::FrameSettings settings;
     bool operator==(const ViewRequest&) const = default;
 };
 
-/// One of some names, or of some whole numbers.
+/// A choice among names or whole numbers.
 struct ChoiceKind {
     struct Entry {
-        std::string name;         ///< as it is written
+        std::string name;         ///< as written in text
         std::string label;        ///< as the viewer shows it
-        std::string_view meaning; ///< a tip of the viewer
+        std::string_view meaning; ///< tooltip in the viewer
     };
     std::vector<Entry> entries;
     bool ofNumbers = false;
-    bool orCount = false; ///< or any whole number, 0 or more
+    bool orCount = false; ///< also any whole number, 0 or more
 };
 struct NumberKind {
     double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
     bool isWhole = false;
-    float sliderLeast = 0.0f, sliderMost = 0.0f; ///< of the viewer's slider; equal ones: all that is taken
+    float sliderLeast = 0.0f, sliderMost = 0.0f; ///< of the viewer's slider; equal ones: the valid range
     const char* format = "%.3f";                 ///< of the slider, for printf
 };
 struct SwitchKind {}; ///< on or off
-struct SizeKind {};   ///< of a picture: 1280x720
+struct SizeKind {};   ///< of an image: 1280x720
 struct CameraKind {}; ///< of the scene, by name or counted from 0
 using SettingKind = std::variant<ChoiceKind, NumberKind, SwitchKind, SizeKind, CameraKind>;
 
-/// Where a text comes from.
+/// Context of a setting's text.
 struct TextSource {
     std::string_view called{}; ///< the setting in messages, such as "--exposure"; empty: Setting::name
     /// The scene whose cameras and lights a text may name; null: not looked up yet.
@@ -53,11 +53,11 @@ struct TextSource {
     std::string_view name{}; ///< Setting::name, which Setting::read() sets
 };
 
-/// A setting's value in a request, whatever its type. Texts are those of the command line: read() restores the value
-/// from text(), to the last bit.
+/// Access to a setting's value in a request, independent of its type. Texts are those of the command line: read()
+/// restores the value from text(), to the last bit.
 struct SettingValue {
     SettingKind kind;
-    std::string_view open{}; ///< the text that leaves it open; empty: it is never open
+    std::string_view open{}; ///< the text of an unset value; empty: it is always set
     std::function<std::string(const ViewRequest& request, const scenes::Scene* scene)> text;
     std::function<void(ViewRequest& request, const std::string& text, const TextSource& source)> read;
     std::function<bool(const ViewRequest& a, const ViewRequest& b)> equal;
@@ -66,44 +66,42 @@ struct SettingValue {
 
 enum class SettingPanel : std::uint8_t { None, Frame, Environment, Shadows, Skin, View };
 
-/// A row of the table.
+/// A row of the settings table.
 struct Setting {
-    std::string_view name{};          ///< of messages: "range tolerance"
+    std::string_view name{};          ///< in messages: "range tolerance"
     std::string_view flag{};          ///< of the command line: "--range-tolerance"
     std::string_view key{};           ///< of scene files and of the viewer's preferences: "rangeTolerance"
-    std::string_view type{};          ///< behind the flag in --help: "METRES"
+    std::string_view type{};          ///< after the flag in --help: "METRES"
     std::string help{};               ///< its line in --help, without range() and the default
     std::string byItself{};           ///< the default as --help words it, where the value alone is unclear
     std::string_view group = "Frame"; ///< in --help
 
-    SettingPanel panel = SettingPanel::Frame; ///< of the viewer that shows it; None: it has a widget elsewhere, or none
-    std::string_view label{};                 ///< there; empty: the name
+    SettingPanel panel = SettingPanel::Frame; ///< viewer panel of the setting; None: it has a widget elsewhere, or none
+    std::string_view label{};                 ///< in the panel; empty: the name
 
-    bool (*heeds)(Technique technique) = nullptr; ///< whether it changes anything of that technique's frames; null: all
+    bool (*heeds)(Technique technique) = nullptr; ///< whether it affects frames of a technique; null: all
     /// Why the other techniques refuse it: "it has no light lists"; empty: they ignore it.
     std::string_view refusal{};
-    /// What of a shadow filter heeds it; null: it is heeded with any.
+    /// Property that a shadow filter must have for the setting to matter; null: none.
     bool frame::ShadowFilterInfo::*ofFilters = nullptr;
-    bool ofEnvironment = false; ///< it changes nothing of a scene without an environment
-    bool ofReference = false;   ///< no technique heeds it, the reference alone does
-    /// Whether a way to find the environment's light reads the setting; null: all do.
+    bool ofEnvironment = false; ///< no effect without an environment
+    bool ofReference = false;   ///< affects the reference only
+    /// Property that an environment light method must have for the setting to matter; null: none.
     bool frame::EnvironmentLightInfo::*ofLight = nullptr;
-    bool ofAreaLights = false; ///< it changes nothing of a scene without area lights
-    /// Whether a way to find the light of area lights reads the setting; null: all do.
+    bool ofAreaLights = false; ///< no effect without area lights
+    /// Property that an area light method must have for the setting to matter; null: none.
     bool frame::AreaLightsInfo::*ofAreaMethod = nullptr;
-    bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique can draw it; null: always
+    bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique supports its value; null: always
 
-    bool samePicture = false; ///< changes how a picture is made and how fast, not the picture: comparisons drop a value
-                              ///< that a technique refuses
+    bool samePicture = false; ///< changes speed, not the image: comparisons drop a value that a technique refuses
     bool sameCost = false;    ///< a pixel costs about the same for every value
-    bool entersLight = true;  ///< may change the light that enters surfaces: light that has spread over them is kept
-                              ///< while only others change
-    bool isOfScene = false;   ///< names things of one scene
-    bool isWishable = true;   ///< scene files may ask for it
+    bool entersLight = true;  ///< may change incident light; if only other settings change, diffused irradiance is kept
+    bool isOfScene = false;   ///< refers to objects of one scene
+    bool isWishable = true;   ///< scene files may set it
     bool isShared = false;    ///< by the two sides of the viewer's comparisons
-    bool isOfFrame = false;   ///< all views of a frame have the same value, since they share what is made by it
+    bool isOfFrame = false;   ///< must be equal for all views of a frame, which share data that depends on it
     bool isRemembered = false; ///< by the viewer from one run to the next
-    bool comesBack = true;     ///< the viewer restores its value when a technique takes it again
+    bool comesBack = true;     ///< the viewer restores its value when a technique supports it again
 
     SettingValue value;
 
@@ -113,32 +111,31 @@ struct Setting {
     /// Throws InputError that names the setting and its valid values.
     void read(ViewRequest& request, const std::string& text, const TextSource& source = {}) const;
     std::string panelLabel() const;
-    /// "1 to 1024", "1, 2 or 4": the numbers that it takes; empty where they have no two ends, and of other kinds.
+    /// "1 to 1024", "1, 2 or 4": the valid numbers; empty if unbounded or not a number.
     std::string range() const;
     bool isDefault(const ViewRequest& request) const { return value.equal(request, ViewRequest()); }
     void reset(ViewRequest& request) const { value.copy(request, ViewRequest()); }
     bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }
-    /// Why it changes nothing with the request's other settings, such as the shadow filter, or of the scene, unless
-    /// that is null; empty: it may.
+    /// Why the setting has no effect, given the request's other settings, such as the shadow filter, and the scene
+    /// unless null; empty: it may have one.
     std::string whyIdle(const ViewRequest& request, const scenes::Scene* scene = nullptr) const;
-    /// Why the requested value changes nothing of frames of these techniques, which all ignore it; empty: it may, or
-    /// some refuse it.
+    /// Why all of these techniques ignore the requested value; empty: it may affect one, or one refuses it.
     std::string whyIgnored(const ViewRequest& request, std::span<const Technique> techniques) const;
-    /// Whether the request's technique takes the requested value of this setting.
+    /// Whether the request's technique supports the requested value of this setting.
     bool isTaken(const ViewRequest& request) const;
 };
 
-/// In the order of --help.
+/// All settings, in the order of --help.
 std::span<const Setting> settingTable();
-/// The row of that key, which must be there.
+/// The setting of a key, which must exist.
 const Setting& settingOf(std::string_view key);
 
-/// Throws InputError for the first setting that the request's technique does not take, with those that do.
+/// Throws InputError for the first setting that the request's technique does not support, and names techniques that do.
 void requireTaken(const ViewRequest& request);
-/// The same for values that it cannot draw; settings that it ignores change nothing.
+/// The same for values that it cannot draw; settings that it ignores are accepted.
 void requireDrawable(const ViewRequest& request);
 
-/// Applies the options of the scene itself, except settings that the user gave (`isSaid`). Throws InputError
+/// Applies the options of the scene file, except settings given by the user (`isSaid`). Throws InputError
 /// "FILE:/options/KEY: what"; `file` is the scene's file.
 void takeWishes(
     const scenes::Scene& scene, const std::string& file, ViewRequest& request,

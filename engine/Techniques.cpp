@@ -42,8 +42,8 @@ constexpr Method kAllLights[] = {Method::None};
 constexpr Method kTiled[] = {Method::Tile25d, Method::TileMinmax, Method::None};
 constexpr Method kClustered[] = {Method::Cluster, Method::Zbin, Method::None};
 
-/// What all views of a frame share. Passes and resources that belong to no view, such as a cache, are declared where it
-/// is made.
+/// Resources that all views of a frame share. declareShared() also declares passes and resources of no single view,
+/// such as caches.
 struct FrameHandles {
     frame::SceneHandles scene;
 };
@@ -63,17 +63,17 @@ FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> view
     return shared;
 }
 
-/// What a recipe wires a view's passes with.
+/// The resources that connect the passes of a view.
 struct ViewWiring {
     graph::Graph& graph;
     const frame::FrameSpec& spec;
     const frame::DrawnView* drawn;
     frame::SurfaceHandles surfaces;                    ///< the scene, as the view draws it
-    frame::LightingInputs lighting;                    ///< with the lists, once there are some
-    std::optional<frame::EnvironmentHandles> backdrop; ///< where the environment is seen
-    std::optional<graph::BufferHandle> seenLights;     ///< where area lights are: shared::SeenLightTexels
-    std::optional<graph::BufferHandle> seenPictures;   ///< where some of those have any
-    std::optional<TextureHandle> passingLobes;         ///< their table, where surfaces that transmit may be rough
+    frame::LightingInputs lighting;                    ///< with light lists, once built
+    std::optional<frame::EnvironmentHandles> backdrop; ///< if the environment is visible
+    std::optional<graph::BufferHandle> seenLights;     ///< if area lights are visible: shared::SeenLightTexels
+    std::optional<graph::BufferHandle> seenPictures;   ///< if some of those have images
+    std::optional<TextureHandle> passingLobes;         ///< lobe table, if transmissive surfaces may be rough
 
     ViewWiring(graph::Graph& ofGraph, const FrameHandles& frame, const ViewSource& view, std::size_t index)
         : graph(ofGraph), spec(view.spec), drawn(view.drawn) {
@@ -123,7 +123,7 @@ struct ViewWiring {
             lighting.environment->filtered = all.filtered;
     }
 
-    /// What a frame does about the light of the view's objects.
+    /// The diffusion work of a frame for the view's objects.
     frame::DiffusionSchedule diffusionSchedule(bool holdsAtlas) const {
         std::vector<frame::DiffusionSchedule::Object> objects(spec.spreadingViews.size());
         for (std::size_t cell = 0; cell < objects.size(); ++cell) {
@@ -137,15 +137,15 @@ struct ViewWiring {
             objects[cell].seen = own.seen;
         }
         if (!drawn) return {nullptr, std::move(objects), holdsAtlas};
-        // Who is told is known when the frame runs.
+        // The callback is looked up at execution.
         const auto spreadOne = [own = drawn] {
             if (own->spreadOne) own->spreadOne();
         };
         return {drawn->diffusionMemory, std::move(objects), holdsAtlas, spreadOne};
     }
 
-    /// Spreads light over objects, each lit as a view of its own; those of which no more is seen than what is known
-    /// from an earlier frame are left as they are.
+    /// Adds diffusion passes for objects, each lit as a separate view. Skips objects whose visible tiles are up to
+    /// date.
     TextureHandle addSpreadLight(const FrameHandles& frame, const ViewSource& view, std::size_t index) {
         const std::string name = index == 0 ? "spread_light_atlas" : fmt::format("spread_light_atlas ({})", index + 1);
         TextureHandle atlas = graph.persist(name, DiffusionPasses::spreadLightAtlas(spec), frame::kSpreadLightRevision);
@@ -180,15 +180,15 @@ struct ViewWiring {
         depths.transparent = resolve(transparent, ResolvePass::Kind::TransparentDepths);
         return depths;
     }
-    /// The surfaces that a forward technique has lit at `depth`, stored as a deferred one would. Depths of several
-    /// samples a pixel tell nothing of its centre, so there the G-buffer gets its own.
+    /// Adds a G-buffer of the surfaces that a forward technique has lit at `depth`. Multisampled depth does not give
+    /// the depth at the pixel's centre, so the G-buffer then draws its own.
     frame::GBufferHandles storeSurfaces(TextureHandle depth) {
         GBufferPass::Inputs inputs{surfaces};
         if (spec.samples == 1) inputs.depth = depth;
         return GBufferPass::add(graph, spec, inputs).gbuffer;
     }
-    /// Light lists for the visible surfaces, if the frame culls lights. `gbuffer` is of the opaque ones; null: they are
-    /// stored nowhere before they are lit.
+    /// Adds light lists for the visible surfaces, if the frame culls lights. `gbuffer` holds the opaque ones; null:
+    /// there is no G-buffer yet.
     void addLightLists(TextureHandle depth, TextureHandle opaque, const frame::GBufferHandles* gbuffer) {
         if (!hasLightLists()) return;
         std::optional<LightListsPass::Normals> normals;
@@ -275,20 +275,20 @@ constexpr auto kTechniques = [] {
 }();
 static_assert(isInOrder(kTechniques, &TechniqueInfo::technique, kTechniques.size()));
 
-/// A picture that a view shows, and the depth of opaque surfaces.
+/// The image that a view shows, and the depth of opaque surfaces.
 struct Shown {
     TextureHandle radiance;
     TextureHandle depth;
 };
 
-/// The lit picture, transparent surfaces included.
+/// Adds the lit image, including transparent surfaces.
 Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, const AfterOpaque& after) {
     OpaquePicture opaque = kRows[std::size_t(technique)].addOpaque(wiring);
     if (wiring.backdrop) {
         const BackdropPass::Inputs inputs{wiring.surfaces.view, *wiring.backdrop, opaque.depth, opaque.radiance};
         opaque.radiance = BackdropPass::add(wiring.graph, wiring.spec, inputs).radiance;
     }
-    // Add passes here that read the opaque picture and draw below transparent surfaces.
+    // Add passes here that read the opaque image and draw beneath transparent surfaces.
     if (after.readsSurfaces && !opaque.gbuffer) opaque.gbuffer = wiring.storeSurfaces(opaque.depth);
     if (after.add) opaque.radiance = after.add(wiring.graph, view, wiring.spec, opaque);
     TextureHandle seenDepth = opaque.depth;
@@ -310,7 +310,7 @@ Shown addLitPicture(Technique technique, std::size_t view, ViewWiring& wiring, c
     return {ForwardPass::add(wiring.graph, wiring.spec, params, inputs).radiance, opaque.depth};
 }
 
-/// What stands in for the lit picture in debug views that passes of their own draw; none for all others.
+/// Adds the passes of debug views that replace the lit image; none for other views.
 std::optional<Shown> addDebugView(Technique technique, ViewWiring& wiring) {
     const frame::DebugView view = wiring.spec.settings.view;
     if (view == frame::DebugView::Ids) {

@@ -5,10 +5,10 @@
 
 namespace tessera::passes {
 
-/// Shows the environment where nothing opaque was drawn.
+/// Draws the environment where no opaque surface was drawn.
 ///
-/// Reads   the environment's map, or its filtered one for a blurred backdrop; depth D32F, reverse-Z, 0 where nothing is
-/// Writes  radiance RGBA32F, linear, before exposure; A stays 0, the coverage
+/// Reads   the environment's map, or its filtered one for a blurred backdrop; depth D32F, reverse-Z, 0 where empty
+/// Writes  radiance RGBA32F, linear, before exposure; A, the coverage, stays 0
 class BackdropPass {
 public:
     struct Inputs {

@@ -12,14 +12,14 @@ namespace {
 
 struct PictureStep {
     graph::TextureHandle radiance, picture;
-    std::optional<graph::TextureHandle> depth, centreDepth; ///< with several samples a pixel
+    std::optional<graph::TextureHandle> depth, centreDepth; ///< with several samples per pixel
 };
 
 struct LevelsStep {
     graph::TextureHandle picture, levels;
 };
 
-/// Every texel from what is bound.
+/// Draws every texel of the targets from the bound textures.
 void drawTexels(const graph::PassContext& context) {
     context.bindTargets();
     gpu::setState({});

@@ -3,14 +3,13 @@
 
 namespace tessera::passes {
 
-/// Keeps the finished picture of opaque surfaces, which bodies of glass show along the rays that they bend, while
-/// transparent surfaces are drawn over it. Where some bodies spread those rays a second pass makes coarser levels.
-/// Reads   radiance RGBA32F, of FrameSpec::samples, linear, before exposure; alpha what is covered; with several
-/// samples
-///         a pixel their depth D32F
-/// Writes  behind_glass RGBA32F, one sample a pixel: rgb of what covers the pixel, times a, the share that it covers;
-///         behind_glass_levels RGBA32F, the means over squares of 2 to 2^BEHIND_COARSEST pixels; with several samples
-///         a pixel behind_glass_depth R32F, as it is at the centre of each on the surface that its first sample shows
+/// Copies the finished image of opaque surfaces, which glass bodies refract, before transparent surfaces are drawn over
+/// it. If some glass scatters refracted rays, a second pass makes coarser levels.
+/// Reads   radiance RGBA32F, of FrameSpec::samples, linear, before exposure; A is the coverage; with several samples
+///         per pixel also their depth D32F
+/// Writes  behind_glass RGBA32F, one sample per pixel: rgb radiance of the covered part, times a, the covered fraction;
+///         behind_glass_levels RGBA32F, means over squares of 2 to 2^BEHIND_COARSEST pixels; with several samples per
+///         pixel behind_glass_depth R32F, the depth at the pixel's centre of the surface that its first sample shows
 struct BehindGlassPass {
     struct Inputs {
         graph::TextureHandle radiance;

@@ -3,8 +3,8 @@
 
 namespace tessera::passes {
 
-/// Lights every covered pixel once from the G-buffer, or shows the view that the settings ask for; by fragment or by
-/// compute shaders, as FrameSpec::lightOn says.
+/// Lights every covered pixel once from the G-buffer, or shows the requested debug view, in fragment or compute shaders
+/// (FrameSpec::lightOn).
 /// Reads   G-buffer channels, the scene's materials, depth D32F, the frame's lights and light lists
 /// Writes  radiance RGBA32F, linear, before exposure; the background where nothing is drawn
 /// Space   lighting space

@@ -6,7 +6,7 @@ namespace tessera::passes {
 
 namespace {
 
-/// What the largest of nearest and negated farthest depth starts from.
+/// Initial value of the maximum of nearest depth and negated farthest depth.
 constexpr glm::vec4 kNoSurface{0.0f, -2.0f, 0.0f, 0.0f};
 
 } // namespace

@@ -7,10 +7,10 @@ namespace tessera::passes {
 
 /// Draws the depth of opaque and alpha-masked geometry, so that later passes shade each pixel once.
 /// Reads   the scene
-/// Writes  depth D32F, reverse-Z, cleared to 0; on request shading_depth RG32F, the depth at which the fragment of
-///         each sample is lit (shaders/lib/raster/shading_place.glsl) and the same negated, cleared to (0, -2). Both
-///         are of FrameSpec::samples. With several samples a fragment is lit once, in the middle of those that its
-///         triangle covers, at a depth that need be none of theirs
+/// Writes  depth D32F, reverse-Z, cleared to 0; on request shading_depth RG32F, the depth at which each sample's
+///         fragment is lit (shaders/lib/raster/shading_place.glsl) and its negative, cleared to (0, -2). Both are of
+///         FrameSpec::samples. With several samples a fragment is lit once, at the mean position of its covered
+///         samples, so its depth may differ from all of theirs
 /// Space   lighting space, through the vertex function that every pass shares
 struct DepthPrepass {
     struct Params {
@@ -22,7 +22,7 @@ struct DepthPrepass {
     struct Outputs {
         Inputs read;
         graph::TextureHandle depth;
-        std::optional<graph::TextureHandle> shadingDepth; ///< where Params ask for it
+        std::optional<graph::TextureHandle> shadingDepth; ///< if Params::shadingDepth
     };
     static std::vector<shader::ProgramDesc> programs(const frame::FrameSpec& spec, const Params& params);
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Params& params, const Inputs& inputs);

@@ -43,7 +43,7 @@ shader::ProgramDesc spreadProgram(bool alongV) {
                                  {{"SUMS", alongV ? "1" : "0"}});
 }
 
-/// Of the names of an object's passes and resources.
+/// Suffix of the names of an object's passes and resources.
 std::string suffixOf(std::size_t cell) {
     return cell == 0 ? "" : fmt::format(", object {}", cell + 1);
 }
@@ -58,7 +58,7 @@ void drawWithin(const Rectangles& rectangles) {
     }
 }
 
-/// What an object's passes have in common.
+/// Adds the diffusion passes of an object.
 struct Object {
     graph::Graph& graph;
     const frame::FrameSpec& spec;
@@ -66,26 +66,26 @@ struct Object {
     TextureHandle steps, continued;
 
     using Light = DiffusionPasses::Light;
-    /// Lights some tiles anew.
+    /// Relights tiles.
     Light light(const DiffusionPasses::Inputs& inputs, Light light, const frame::TileSet& tiles,
                 const std::function<void()>& done) const;
 
-    /// Light that has spread by some of the levels, and the sum of what leaves for it; none before the first.
+    /// Irradiance diffused by the levels so far, and its weighted sum over levels; no sum before the first level.
     struct Spread {
         TextureHandle light;
         std::optional<TextureHandle> sum;
     };
     Spread spread(std::size_t level, const Spread& before, const frame::DiffusionWork::Level& tiles) const;
-    /// Fills into the object's cell of the atlas of spread light, and says there what else pixels ask for.
+    /// Stores the result in the object's cell of the diffused irradiance atlas, and the cell's constants.
     TextureHandle store(const Spread& spread, TextureHandle unspread, TextureHandle spreadLightAtlas,
                         const frame::SpreadLightAtlas& cells, std::size_t cell, const frame::TileSet& tiles,
                         const std::function<void()>& done) const;
-    /// Says there of some tiles that no light is known.
+    /// Marks tiles of the cell as unknown, with alpha 0.
     TextureHandle blank(TextureHandle spreadLightAtlas, const frame::SpreadLightAtlas& cells, std::size_t cell,
                         const frame::TileSet& tiles, const std::function<void()>& done) const;
 
 private:
-    /// What pixels ask of the object's cell: SpreadLightAtlas::ofCell().
+    /// The constants of a cell: SpreadLightAtlas::ofCell().
     glm::vec4 cellValues(const frame::SpreadLightAtlas& cells) const {
         return {glm::vec3(spec.spread->inPixels), float(frame::borderTexels(spec.gutterTexels, cells.sideTexels))};
     }
@@ -136,7 +136,7 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, Light light, 
                                                              glm::vec4(spec.spread->inTexels, 0.0)}](
                     const Data& out, const graph::PassContext& context) {
                     context.bindTargets();
-                    // Nothing passes a depth of 1.
+                    // No fragment passes the test against depth 1.
                     gpu::clearDepth(1.0f);
                     for (const gpu::Rectangle& rectangle : rectangles) {
                         gpu::setScissor(rectangle);
@@ -363,7 +363,7 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
     TextureHandle written = inputs.spreadLightAtlas;
     if (!work.blank.isEmpty()) written = object.blank(written, cells, params.cell, work.blank, task.blanked);
     if (!task.spreads) {
-        // For a later frame.
+        // Kept for a later frame.
         if (task.lights) {
             graph.output(light.entering);
             graph.output(light.unspread);

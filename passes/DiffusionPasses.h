@@ -7,17 +7,16 @@
 
 namespace tessera::passes {
 
-/// Spreads the light of an object over its surface, in the object's atlas of texture coordinates, the UV atlas, into
-/// the view's atlas of spread light (docs/skin.md). Reads   the scene, the lights that reach the object, and what is
-/// known of its light from earlier frames Writes  a cell of the atlas of spread light, RGBA32F: rgb irradiance over pi
-/// times the albedo to the power of
-///         preScatterShare, spread, a 1 where it is known; and what pixels ask of the cell. entering_light and
-///         unspread_light, which are kept for later frames: the same as lit, and the part of it that leaves the texels
-///         where it is lit
-/// Space   of the UV atlas; lights around the object, in world axes
+/// Diffuses an object's irradiance over its surface, in its UV atlas, and stores it in the view's diffused irradiance
+/// atlas (docs/skin.md).
+/// Reads   the scene, the lights that reach the object, and its irradiance kept from earlier frames
+/// Writes  a cell of the atlas, RGBA32F: rgb diffused irradiance over pi times albedo^preScatterShare, a 1 where known;
+///         and the constants of the cell. entering_light and unspread_light, kept for later frames: the same before
+///         diffusion, and the part of it that leaves the texels where it enters
+/// Space   UV atlas; lights around the object, in world axes
 /// Source  d'Eon and Luebke 2007, GPU Gems 3, chapter 14; Green 2004, GPU Gems, chapter 16
 struct DiffusionPasses {
-    /// What is kept of an object's light as it is lit: what enters its surface, and the part of it that leaves there.
+    /// An object's undiffused light, kept across frames: entering irradiance, and the part that leaves where it enters.
     struct Light {
         graph::TextureHandle entering, unspread;
     };
@@ -26,7 +25,7 @@ struct DiffusionPasses {
         frame::DiffusionTask task;
     };
     struct Inputs {
-        frame::SurfaceHandles surfaces; ///< as the object's own view draws it
+        frame::SurfaceHandles surfaces; ///< as drawn by the object's diffusion view
         frame::LightingInputs lighting;
         graph::TextureHandle spreadLightAtlas;
         Light light;                                ///< kept()
@@ -35,7 +34,7 @@ struct DiffusionPasses {
     struct Outputs {
         graph::TextureHandle spreadLightAtlas;
     };
-    /// Names of what is kept of a cell besides the atlas of spread light.
+    /// Names of a cell's persistent textures besides the diffused irradiance atlas.
     static std::array<std::string, 2> keptNames(std::size_t view, std::size_t cell);
     static Light kept(graph::Graph& graph, const frame::FrameSpec& view, std::size_t viewNumber, std::size_t cell);
     static graph::TextureDesc spreadLightAtlas(const frame::FrameSpec& view);

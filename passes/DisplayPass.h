@@ -4,10 +4,10 @@
 
 namespace tessera::passes {
 
-/// Turns radiance into display code values: exposure, tone map, sRGB transfer function.
+/// Converts radiance to display code values: exposure, tone map, sRGB transfer function.
 /// Reads   radiance RGBA32F, linear
 /// Writes  display RGBA8, sRGB code values
-/// Source  shaders/shared/tonemap.h names that of each curve
+/// Source  of each curve: shaders/shared/tonemap.h
 struct DisplayPass {
     struct Inputs {
         graph::TextureHandle radiance;

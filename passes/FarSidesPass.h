@@ -3,9 +3,9 @@
 
 namespace tessera::passes {
 
-/// Draws the back faces of bodies of glass, the nearest of each pixel: there rays leave them.
+/// Draws the nearest back faces of glass bodies per pixel, where refracted rays exit.
 /// Reads   the scene
-/// Writes  far_sides RGBA32F, one sample a pixel: xyz the unit normal as it is lit, w the depth, 0 where there is none
+/// Writes  far_sides RGBA32F, one sample per pixel: xyz unit shading normal, w depth, 0 without a back face
 /// Space   lighting space
 /// Source  Wyman 2005, "An Approximate Image-Space Approach for Interactive Refraction"
 struct FarSidesPass {

@@ -12,7 +12,7 @@ gpu::PipelineState pipelineState(const ForwardPass::Params& params, bool prepass
     gpu::PipelineState state;
     if (params.surfaces == ForwardPass::Surfaces::Transparent) {
         state.depthTest = gpu::DepthTest::GreaterEqual;
-        // Lights that layers visit add up, however much of each is seen.
+        // Light counts of layers add up, regardless of the layers' opacity.
         state.blend = view == frame::DebugView::Lights ? gpu::Blend::AdditiveCovering : gpu::Blend::AlphaStraight;
     } else {
         state.depthTest = prepassed ? gpu::DepthTest::Equal : gpu::DepthTest::GreaterEqual;
@@ -21,7 +21,7 @@ gpu::PipelineState pipelineState(const ForwardPass::Params& params, bool prepass
     return state;
 }
 
-/// How surfaces that transmit are drawn on what lies behind: lit, by channel. Debug views show them as other surfaces.
+/// Blend mode of transmissive surfaces: lit ones transmit per channel. Debug views draw them like other surfaces.
 std::optional<gpu::Blend> transmitting(const ForwardPass::Params& params, frame::DebugView view) {
     const bool isLit = params.surfaces == ForwardPass::Surfaces::Transparent && view == frame::DebugView::Final;
     return isLit ? std::optional(gpu::Blend::Transmitting) : std::nullopt;

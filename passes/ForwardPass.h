@@ -5,13 +5,12 @@
 
 namespace tessera::passes {
 
-/// Shades surfaces as they are rasterised: all opaque ones, those that a prepass left in the depth buffer, or the
-/// transparent ones on top of a lit picture.
-/// Reads   the scene, the frame's lights and light lists; depth D32F after a prepass or under transparent surfaces, of
-///         which bodies of glass look up what is behind, its picture RGBA32F (BehindGlassPass), and their own far
-///         sides RGBA32F (FarSidesPass)
-/// Writes  radiance RGBA32F, linear, before exposure; depth D32F when it comes first. All are of FrameSpec::samples; a
-///         pixel's covered samples share one shading
+/// Shades surfaces as they are rasterised: all opaque ones, those visible after a depth prepass, or the transparent
+/// ones over a lit image.
+/// Reads   the scene, the frame's lights and light lists; depth D32F after a prepass or beneath transparent surfaces;
+///         for glass bodies the image behind them RGBA32F (BehindGlassPass) and their far sides RGBA32F (FarSidesPass)
+/// Writes  radiance RGBA32F, linear, before exposure; depth D32F without a prepass. All are of FrameSpec::samples; the
+///         samples that a fragment covers share one shading
 /// Space   lighting space
 /// Source  Walter 2007; Heitz 2014 (shaders/lib/reflectance/brdf.glsl)
 struct ForwardPass {
@@ -22,10 +21,10 @@ struct ForwardPass {
     struct Inputs {
         frame::SurfaceHandles surfaces;
         frame::LightingInputs lighting;
-        std::optional<graph::TextureHandle> depth; ///< of a prepass, or of the opaque surfaces under transparent ones
-        std::optional<graph::TextureHandle> radiance;      ///< the picture to draw transparent surfaces on
-        std::optional<frame::BehindHandles> behind = {};   ///< of transparent surfaces, FrameSpec::showsBehindGlass
-        std::optional<graph::TextureHandle> farSides = {}; ///< of those, FrameSpec::drawsFarSides
+        std::optional<graph::TextureHandle> depth;    ///< of a prepass, or of opaque surfaces beneath transparent ones
+        std::optional<graph::TextureHandle> radiance; ///< image to draw transparent surfaces over
+        std::optional<frame::BehindHandles> behind = {};   ///< for transparent surfaces: FrameSpec::showsBehindGlass
+        std::optional<graph::TextureHandle> farSides = {}; ///< for transparent surfaces: FrameSpec::drawsFarSides
     };
     struct Outputs {
         frame::SurfaceHandles surfaces; ///< as read

@@ -26,7 +26,7 @@ GBufferPass::Outputs GBufferPass::add(graph::Graph& graph, const frame::FrameSpe
         },
         [hasDepth](const Outputs& out, const graph::PassContext& context) {
             context.bindTargets();
-            // Channels of uncovered pixels are never read: depth 0 says that nothing is there.
+            // Channels of uncovered pixels are never read: depth 0 marks them.
             if (!hasDepth) gpu::clearDepth(0.0f);
             gpu::useProgram(context.program());
             gpu::PipelineState state;

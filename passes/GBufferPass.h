@@ -6,14 +6,14 @@
 namespace tessera::passes {
 
 /// Stores the nearest opaque or alpha-masked surface of each pixel.
-/// Reads   the scene; depth D32F where another pass has drawn it, of one sample a pixel
+/// Reads   the scene; depth D32F if another pass has drawn it, with one sample per pixel
 /// Writes  the channels of FrameSpec::channels in the layout's textures (renderer/frame/GBufferLayout.h), depth D32F
-///         reverse-Z where it comes first
+///         reverse-Z if no other pass has
 /// Space   lighting space
 struct GBufferPass {
     struct Inputs {
         frame::SurfaceHandles surfaces;
-        std::optional<graph::TextureHandle> depth = {}; ///< of the same surfaces, where it is drawn already
+        std::optional<graph::TextureHandle> depth = {}; ///< of the same surfaces, if drawn already
     };
     struct Outputs {
         Inputs read;

@@ -14,7 +14,7 @@ namespace {
 using graph::Access;
 using Lanes = ListStep::Lanes;
 
-/// The steps of a frame's method; zbin has masks instead of runs.
+/// The compute steps of a culling method; zbin builds masks instead of lists.
 struct Steps {
     ListStep reach, depths, count, scan, sizes, fill, binMasks, tileMasks;
 
@@ -25,17 +25,17 @@ struct Steps {
           binMasks(spec, "bin_masks", Lanes::AsChosen), tileMasks(spec, "tile_masks", Lanes::AsChosen) {}
 };
 
-/// What the passes hand on to one another.
+/// The resources passed from step to step.
 struct Handles {
     GpuLightListsPass::Inputs read;
     frame::LightListHandles lists;
     graph::BufferHandle cullLights; ///< shared::CullLight each
-    graph::BufferHandle reach;      ///< uvec2 a light: the columns and rows of tiles that it may touch
-    graph::BufferHandle tileDepths; ///< vec2 a tile
-    graph::BufferHandle tileCounts; ///< uvec2 a tile
+    graph::BufferHandle reach;      ///< uvec2 per light: the tile columns and rows that it may touch
+    graph::BufferHandle tileDepths; ///< vec2 per tile
+    graph::BufferHandle tileCounts; ///< uvec2 per tile
     graph::BufferHandle totals;     ///< uvec4
 
-    /// Constants of the view and of its lights, which every step takes.
+    /// Declares the constants of view and lights, which every step reads.
     void readConstants(graph::PassBuilder& pass) const {
         read.view.read(pass);
         pass.read(read.lighting, Access::UniformRead);
@@ -52,7 +52,7 @@ struct Handles {
         gpu::bindTexelBuffer(TEXTURE_UNIT_CULL_LIGHTS, context.buffer(cullLights).texels(graph::Format::Rgba32Float));
         gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_REACH, context.buffer(reach).texels(graph::Format::Rg32Uint));
     }
-    /// The parts of cells and entries that the frame's lists occupy.
+    /// Binds tiles, and the parts of cells and entries that are in use.
     void bindLists(const graph::PassContext& context) const {
         const auto bind = [&](std::uint32_t slot, graph::BufferHandle handle, std::size_t least) {
             gpu::bindStorageBuffer(slot, context.buffer(handle), 0, std::max(context.bytes(handle), least));
@@ -73,7 +73,7 @@ struct Builder {
     bool isZbin() const { return spec.culling.method == culling::Method::Zbin; }
     std::size_t tiles() const { return frame::lightTileCount(spec); }
     graph::BufferDesc twoWordsATile() const { return {tiles() * sizeof(glm::uvec2)}; }
-    /// Tiles as a grid of items, the layers below one another.
+    /// The tiles as a grid of items, with layers stacked vertically.
     glm::uvec2 tileItems() const {
         const int side = spec.culling.tilePixels;
         const auto columns = std::uint32_t((spec.settings.sizePixels.x + side - 1) / side);
@@ -108,7 +108,7 @@ void Builder::findReach() {
             gpu::bindTexelBuffer(TEXTURE_UNIT_CULL_LIGHTS,
                                  context.buffer(out.cullLights).texels(graph::Format::Rgba32Float));
             gpu::bindStorageBuffer(STORAGE_LIGHT_REACH, context.buffer(out.reach));
-            // Without lights there is a row that finds none.
+            // Without lights, one row runs and finds none.
             step.run(context, {ListStep::kLightsARow,
                                std::uint32_t((lights + ListStep::kLightsARow - 1) / ListStep::kLightsARow)});
         });
@@ -194,7 +194,7 @@ Totals totalsOf(const frame::FrameSpec& spec, const glm::uvec4& scanned, const s
     return {bins, (bins + std::size_t(lighting.tileGrid.x) * lighting.tileGrid.y) * lighting.lights.w};
 }
 
-/// The lights that reach everywhere, which stand in front of the entries.
+/// The unbounded lights, which precede the entries of cells.
 std::vector<std::uint32_t> lightsEverywhere(const frame::PreparedView& view) {
     std::vector<std::uint32_t> everywhere;
     for (std::size_t i = 0; i < view.cullLights.size(); ++i)
@@ -202,7 +202,7 @@ std::vector<std::uint32_t> lightsEverywhere(const frame::PreparedView& view) {
     return everywhere;
 }
 
-/// Where the lists go, once their size is known.
+/// Allocates the lists once their size is known.
 void Builder::makeListRoom() {
     handles = graph.addPass<Handles>(
         "light_room",

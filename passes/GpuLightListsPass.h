@@ -3,10 +3,10 @@
 
 namespace tessera::passes {
 
-/// Builds light lists on the GPU, by compute or fragment shaders, equal to those of LightListsPass entry for entry. The
-/// lists are counted, then allocated, then filled, so they never overflow: only their size travels to the CPU. Several
-/// passes of the graph: light_reach, light_depths, light_count (not for zbin), light_scan, light_room, light_lists; of
-/// many lights light_count, light_sizes and light_lists once for each round over them.
+/// Builds light lists on the GPU, by compute shaders, equal to those of LightListsPass entry for entry. The lists are
+/// counted, then allocated, then filled, so that they never overflow: only their size is read back. Adds several
+/// passes: light_reach, light_depths, light_count (not for zbin), light_scan, light_room, light_lists. Many lights are
+/// split into rounds, with one light_count, light_sizes and light_lists per round.
 /// Reads   the depths at which opaque and transparent surfaces are lit (frame::LitDepths)
 /// Writes  light tiles, cells and entries (shaders/shared/light_lists.h)
 /// Space   culling space (shaders/shared/culling.h)

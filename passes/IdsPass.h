@@ -3,12 +3,12 @@
 
 namespace tessera::passes {
 
-/// Draws which triangles each pixel shows, for the view `ids`, which replaces the lit picture.
+/// Draws the triangles visible in each pixel, for the debug view `ids`, which replaces the lit image.
 /// Reads   the scene
 /// Writes  ids RGBA32F: R 1 + the opaque surface's mesh instance in document order, 0 without one; G its triangle in
-///         the mesh; B the sum over transparent surfaces before it of a number below 2^16 each; A the coverage. Depth
-///         D32F of opaque surfaces. Both are of FrameSpec::samples. With FrameSettings::idsOfNearest transparent
-///         surfaces count as opaque, and B is 0
+///         the mesh; B the sum of a number below 2^16 per transparent surface in front; A the coverage. Depth D32F of
+///         opaque surfaces. Both are of FrameSpec::samples. With FrameSettings::idsOfNearest transparent surfaces count
+///         as opaque, and B is 0
 /// Space   lighting space, through the vertex function that every pass shares
 struct IdsPass {
     using Surfaces = frame::SurfaceHandles::Kind;

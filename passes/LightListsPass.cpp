@@ -19,14 +19,14 @@ culling::DepthPicture download(const gpu::Texture& texture, std::vector<float>& 
     return {memory, isRange};
 }
 
-/// For shaders that read a storage block.
+/// Uploads values that shaders read as a storage block.
 template <typename Value>
 void upload(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
             const std::vector<Value>& values) {
     makeBlockRoom(context, handle, what, values.size() * sizeof(Value)).upload(values);
 }
 
-/// The normals of the texture, in `memory`.
+/// Downloads the normals of a texture into `memory`.
 culling::NormalPicture downloadNormals(const gpu::Texture& texture, const culling::NormalEncoding& encoding,
                                        const shared::ViewConstants& view, std::vector<std::uint32_t>& memory) {
     const graph::TextureDesc& desc = texture.desc();

@@ -17,7 +17,7 @@ struct LightListsPass {
     };
     struct Inputs {
         frame::LitDepths depths;
-        std::optional<Normals> normals; ///< where FrameSpec::culling looks at them, and only there
+        std::optional<Normals> normals; ///< if and only if FrameSpec::culling uses them
     };
     struct Outputs {
         Inputs read;

@@ -36,7 +36,7 @@ LightVolumesPass::Outputs LightVolumesPass::add(graph::Graph& graph, const frame
             gpu::PipelineState state;
             // Passes where the surface is nearer than the volume's back; never where nothing was drawn, at depth 0.
             state.depthTest = gpu::DepthTest::Less;
-            state.depthClamp = true; // volumes may reach past the near and the far plane
+            state.depthClamp = true; // volumes may extend beyond the near and far plane
             state.cullFace = gpu::CullFace::Front;
             state.blend = gpu::Blend::Additive;
             gpu::setState(state);

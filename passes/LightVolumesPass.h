@@ -3,8 +3,8 @@
 
 namespace tessera::passes {
 
-/// Adds the lights one by one to the picture: draws a proxy volume per light (shaders/lib/light/light_volume.glsl)
-/// wherever a surface lies in front of its back, all in one draw and in document order, which blending keeps.
+/// Adds the lights to the image one by one: draws a proxy volume per light (shaders/lib/light/light_volume.glsl) where
+/// a surface lies in front of its back faces, all in one draw and in document order, which blending preserves.
 /// Reads   G-buffer channels, the scene's materials, depth D32F (tested and sampled), the frame's lights
 /// Writes  radiance RGBA32F, linear: added to; alpha stays
 /// Space   lighting space
@@ -20,7 +20,7 @@ struct LightVolumesPass {
         frame::LightingInputs lighting; ///< as read
         graph::TextureHandle radiance;
     };
-    /// Whether the frame's view sums over lights, and there are lights and surfaces that take light.
+    /// Whether the frame's view sums over lights, and there are lights and lit surfaces.
     static bool isNeeded(const frame::FrameSpec& spec);
     static shader::ProgramDesc program(const frame::FrameSpec& spec);
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);

@@ -3,22 +3,22 @@
 
 namespace tessera::passes {
 
-/// A buffer that grows, of 0 bytes so far: PassContext::allocate() says how many.
+/// A growing buffer whose size PassContext::allocate() sets.
 inline constexpr graph::BufferDesc kGrowing{0, true};
 
-/// Makes room for texels that shaders will read by a buffer texture. Throws InputError with the remedy where the driver
-/// cannot read as many, std::runtime_error with it where memory runs out.
+/// Allocates texels that shaders read as a buffer texture. Throws InputError if the driver cannot read that many,
+/// std::runtime_error if memory runs out; both name the remedy.
 const gpu::Buffer& makeTexelRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
                                  std::size_t texels, graph::Format format);
 
-/// The same for what shaders will read as a storage block.
+/// The same for bytes that shaders read as a storage block.
 const gpu::Buffer& makeBlockRoom(const graph::PassContext& context, graph::BufferHandle handle, const char* what,
                                  std::size_t bytes);
 
-/// Throws InputError with the remedy where shaders of this driver cannot read as many texels of a buffer.
+/// Throws InputError with the remedy if shaders of this driver cannot read that many texels of a buffer.
 void requireReadable(const char* what, std::size_t texels);
 
-/// Throws InputError with the remedy where shaders of this driver cannot write as many bytes.
+/// Throws InputError with the remedy if shaders of this driver cannot write that many bytes.
 void requireWritable(const char* what, std::size_t bytes);
 
 } // namespace tessera::passes

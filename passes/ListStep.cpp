@@ -17,14 +17,14 @@ constexpr int kGroup = 64;
 /// The same on software rasterisers, which run 4 to 16 together; there a row of tiles is seldom a multiple of 64.
 constexpr int kSoftwareGroup = 8;
 
-/// A light takes at most, once to count and once to write: itself, the end of the loop that looked for it, and its
-/// cells, tested and written. The other lanes' loops may pass over it in iterations of their own, up to 15 more.
+/// Most iterations per light, once to count and once to write: the light, the end of its search loop, and its cells,
+/// tested and written. Loops of up to 15 other lanes may skip the light in separate iterations.
 constexpr std::size_t kIterationsALight = 2 * (2 + 2 * (LIGHT_TILE_SLICES + 1)) + 2 * (frame::kMostLanesTogether - 1);
-/// Lights that a lane may look at in one shader on software rasterisers, whose loops end after some iterations.
+/// Lights per lane in one shader on software rasterisers, which truncate loops after kMostLoopIterations.
 constexpr std::size_t kSoftwareLightsALane =
     (frame::kMostLoopIterations - frame::kOtherLoopIterations) / kIterationsALight;
 
-/// Masks are built without rounds, a word after the other.
+/// Masks are built without rounds, word by word.
 constexpr std::size_t kIterationsAWord = 2 + 32 / MASK_LIGHTS_AN_ITERATION;
 static_assert(scenes::kMostLights / 32 * kIterationsAWord <= frame::kMostLoopIterations - frame::kOtherLoopIterations);
 

@@ -6,11 +6,11 @@
 namespace tessera::passes {
 
 /// Counts the surfaces that a technique shades (or stores in its G-buffer) at each pixel, for the debug view
-/// `overdraw`, which replaces the lit picture: it draws the surfaces of the technique's geometry pass, in its order and
-/// with its depth test.
-/// Reads   the scene; depth D32F of a prepass, where the technique has one
-/// Writes  overdraw RGBA32F: rgb the fragments that pass the depth test, those of the transparent layer included; A 1
-///         where there is any. Depth D32F of opaque surfaces, where no prepass made it. Both are of FrameSpec::samples
+/// `overdraw`, which replaces the lit image. Draws the surfaces of the technique's geometry pass, in its order and with
+/// its depth test.
+/// Reads   the scene; depth D32F of a prepass, if the technique has one
+/// Writes  overdraw RGBA32F: rgb number of fragments that pass the depth test, transparent layer included; A 1 if any.
+///         Depth D32F of opaque surfaces, without a prepass. Both are of FrameSpec::samples
 /// Space   lighting space, through the vertex function that every pass shares
 struct OverdrawPass {
     using Surfaces = frame::SurfaceHandles::Kind;

@@ -12,7 +12,7 @@ namespace {
 struct KindInfo {
     ResolvePass::Kind kind;
     const char* pass;     ///< its name in the graph
-    const char* resolved; ///< the name of what it writes
+    const char* resolved; ///< name of its output
     graph::Format format;
 };
 

@@ -4,12 +4,12 @@
 
 namespace tessera::passes {
 
-/// Reduces a pixel's samples to one value: of radiance the mean, linear, before exposure and tone map; of depths the
-/// range. A shader of its own rather than a blit, whose filter and order OpenGL leaves to the driver: the sum runs over
-/// ascending samples everywhere.
+/// Resolves a pixel's samples to one value: the mean of radiance, linear, before exposure and tone map, or the range of
+/// depths. Uses a shader instead of a blit, whose filter and order OpenGL leaves to the driver, so that the sum always
+/// runs over ascending samples.
 /// Reads   samples, of FrameSpec::samples: radiance RGBA32F, or depths RG32F, nearest and negated farthest
-/// Writes  resolved, in the same format with one sample: rgb the mean, alpha the share of the pixel that is covered;
-///         or the largest of each, so x nearest depth, y farthest depth negated; x is 0 where nothing was drawn
+/// Writes  resolved, in the same format with one sample: rgb the mean, alpha the covered fraction of the pixel; or the
+///         maximum of each depth: x nearest, y farthest negated; x is 0 where nothing was drawn
 struct ResolvePass {
     enum class Kind { Radiance, Depths, TransparentDepths };
     struct Params {

@@ -5,12 +5,11 @@
 
 namespace tessera::passes {
 
-/// Shows the surfaces of area lights: each sample's ray is met with them in closed form, so outlines are those of the
-/// shapes. Its depths go into a texture of their own, since all that reads the other one asks for surfaces that lights
-/// light.
-/// Reads   depth D32F, reverse-Z, of opaque surfaces; shared::SeenLightTexels; where lights have any, their pictures
-/// Writes  radiance RGBA32F, linear, before exposure, A 1, the coverage; seen_depth D32F: the nearest of what is opaque
-///         and of lights
+/// Draws the visible surfaces of area lights. Intersects each sample's ray with them in closed form, so outlines are
+/// exact. Their depth goes to a separate texture, since all readers of the scene's depth expect lit surfaces.
+/// Reads   depth D32F, reverse-Z, of opaque surfaces; shared::SeenLightTexels; images of the lights, if any
+/// Writes  radiance RGBA32F, linear, before exposure, A 1, the coverage; seen_depth D32F: the nearest of opaque
+///         surfaces and lights
 /// Space   lighting space
 struct SeenLightsPass {
     struct Inputs {
@@ -28,7 +27,7 @@ struct SeenLightsPass {
         graph::TextureHandle radiance;
         graph::TextureHandle seenDepth;
     };
-    /// That of the lights, and before it the one that copies depth.
+    /// The program that copies depth, then the one that draws lights.
     static std::vector<shader::ProgramDesc> programs(const frame::FrameSpec& spec);
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs);
 };

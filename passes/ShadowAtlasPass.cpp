@@ -11,7 +11,7 @@ namespace tessera::passes {
 
 namespace {
 
-/// The atlas in a picture: in strips of whole faces below one another, since it may be many times as wide as high.
+/// Layout of the atlas in the image: strips of whole faces, stacked vertically, since the atlas may be very wide.
 struct Layout {
     int strips = 1;
     int stripTexels = 1; ///< width of a strip
@@ -22,7 +22,7 @@ struct Layout {
     glm::ivec2 stripCorner(int strip) const { return corner + glm::ivec2(0, (strips - 1 - strip) * stripPixels.y); }
 };
 
-/// Of as many strips as make the texels largest.
+/// Chooses the number of strips that makes texels largest.
 Layout layoutOf(const frame::ShadowMaps& maps, const glm::ivec2& sizePixels) {
     int largest = 1;
     for (const frame::ShadowFace& face : maps.faces) largest = std::max(largest, face.sideTexels);
@@ -40,7 +40,7 @@ Layout layoutOf(const frame::ShadowMaps& maps, const glm::ivec2& sizePixels) {
     return best;
 }
 
-/// The pixels of a strip that may show texels of a face, whose corner is in texels of the strip.
+/// The pixels of a strip that may show a face, whose corner is in texels of the strip.
 gpu::Rectangle pixelsOf(const glm::ivec2& cornerTexels, int sideTexels, const glm::ivec2& stripCorner,
                         const Layout& layout) {
     const glm::dvec2 low = glm::dvec2(cornerTexels) / layout.texelsPerPixel;

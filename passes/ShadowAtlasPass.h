@@ -5,13 +5,13 @@
 
 namespace tessera::passes {
 
-/// Shows the shadow atlas for the view `shadow_atlas`, which replaces the lit picture: in the middle, by the nearest
-/// texel, in strips below one another where it is so wide that its texels become larger then.
-/// Reads   the atlas D32F, where the view has one
-/// Writes  radiance RGBA32F: x the depth as stored, 0 where there is no caster; y how near the caster is to its light,
-///         from 1 to 1/4; z the number of the face in its light, from 1, negated at its rim, 0 of texels of no face;
-///         alpha 1 in the atlas, or anywhere where there is none. Depth D32F, 0: nothing of the scene is drawn. Both
-///         are of FrameSpec::samples
+/// Shows the shadow atlas for the debug view `shadow_atlas`, which replaces the lit image: centred, with nearest
+/// filtering, in vertically stacked strips if that makes its texels larger.
+/// Reads   the atlas D32F, if the view has one
+/// Writes  radiance RGBA32F: x the stored depth, 0 without a caster; y the caster's proximity to its light, from 1 to
+///         1/4; z the number of the face in its light, from 1, negated at its rim, 0 outside of faces; alpha 1 in the
+///         atlas, or everywhere if there is none. Depth D32F, 0: nothing of the scene is drawn. Both are of
+///         FrameSpec::samples
 struct ShadowAtlasPass {
     struct Inputs {
         std::optional<graph::TextureHandle> atlas;

@@ -12,7 +12,7 @@ using graph::Access;
 
 namespace {
 
-/// The draws of all faces that are drawn.
+/// The draws of all faces to be drawn.
 struct Draws {
     graph::BufferHandle rows, commands;
 };
@@ -31,9 +31,8 @@ Draws addUpload(graph::Graph& graph, const frame::DrawnView* drawn) {
         });
 }
 
-/// In a cascade, casters are moved away by the width of a texel at most: one that rises more steeply over another
-/// within a texel hides it there, and moved farther it would let light through. Depths of other faces are not even, so
-/// that one number says nothing of all of them.
+/// Limits the bias in a cascade to the width of a texel: a caster steeper than that hides the surface below within the
+/// texel, and a larger bias would leak light. Other faces have nonlinear depth, for which no single limit holds.
 float mostSlopeBias(const shared::ViewConstants& face) {
     const bool isParallel = face.forwardLS.w != 0.0f;
     return isParallel ? -face.rayFromPixel.x / face.depthKey.y : 0.0f;
@@ -44,12 +43,12 @@ float mostSlopeBias(const shared::ViewConstants& face) {
 std::vector<shader::ProgramDesc> ShadowMapsPass::programs(const frame::FrameSpec& spec) {
     frame::FrameSpec ofMaps = spec;
     ofMaps.samples = 1;
-    ofMaps.spread.reset(); // lights see an object as it stands, not in its texels
+    ofMaps.spread.reset(); // lights see an object's geometry, not its UV atlas
     return frame::depthPrograms(ofMaps, "shadow_maps", "passes/depth_prepass.frag", true, {{"SHADING_DEPTH", "0"}});
 }
 
 ShadowMapsPass::Outputs ShadowMapsPass::add(graph::Graph& graph, const frame::FrameSpec& spec, const Inputs& inputs) {
-    // What is in the atlas is known face by face, not by a revision of the whole.
+    // The contents of the atlas are tracked per face, not by a revision of the whole.
     constexpr std::uint64_t kRevision = 1;
     const frame::DrawnView* const drawn = inputs.drawn;
     const std::size_t number = drawn == nullptr ? inputs.view : drawn->shadowMemory->number();
@@ -80,7 +79,7 @@ ShadowMapsPass::Outputs ShadowMapsPass::add(graph::Graph& graph, const frame::Fr
                         state.depthTest = gpu::DepthTest::Greater;
                         state.depthWrite = true;
                         state.bothSides = true;
-                        // GL moves by the larger change of depth along a row or a column of texels, which is at least
+                        // GL biases by the larger change of depth along a row or a column of texels, which is at least
                         // half of their sum.
                         state.slopeBias = -1.0f;
                         for (const frame::ShadowDraws::Face& face : drawnView.shadowMemory->draws().faces) {

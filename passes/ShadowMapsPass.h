@@ -3,12 +3,11 @@
 
 namespace tessera::passes {
 
-/// Draws the casters as lights see them, into the faces of an atlas (renderer/frame/ShadowMaps.h). The atlas lives
-/// across frames: faces that it holds already are not drawn again, and where it holds all, there is no pass.
+/// Draws shadow casters as seen from lights into the faces of an atlas (renderer/frame/ShadowMaps.h). The atlas
+/// persists across frames: only faces that it lacks are drawn, and if it has all, there is no pass.
 /// Reads   the scene
-/// Writes  the atlas D32F, reverse-Z, 0 where there is no caster; both sides of casters, each triangle moved away from
-///         the light by how much its depth changes over half a texel or more, so that no triangle hides itself within
-///         a texel
+/// Writes  the atlas D32F, reverse-Z, 0 without a caster; both sides of casters, each triangle biased away from the
+///         light by its change of depth over half a texel or more, so that no triangle shadows itself within a texel
 /// Space   of each face
 struct ShadowMapsPass {
     struct Inputs {

@@ -3,10 +3,10 @@
 
 namespace tessera::passes {
 
-/// Shows one channel of the G-buffer as it is stored, for the views `gbuffer.*`, which replace the lit picture.
+/// Shows one channel of the G-buffer as stored, for the debug views `gbuffer.*`, which replace the lit image.
 /// Reads   the G-buffer in the layout's formats, depth D32F
 /// Writes  radiance RGBA32F: rgb the first three stored components, or the fourth three times; alpha 1; 0 where nothing
-///         was drawn. Components of a packed channel are its fields, each as a share of its largest code
+///         was drawn. Components of a packed channel are its fields, each as a fraction of its largest code
 struct StoredChannelPass {
     struct Params {
         frame::StoredComponents shown;

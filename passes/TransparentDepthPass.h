@@ -3,10 +3,10 @@
 
 namespace tessera::passes {
 
-/// Draws the depths between which each sample shades transparent surfaces, so that light lists cover them.
+/// Draws the depth range in which each sample shades transparent surfaces, so that light lists cover them.
 /// Reads   the scene, depth D32F of opaque surfaces
 /// Writes  transparent_depth RG32F: x nearest depth at which a fragment is lit (shading_place.glsl), y farthest depth
-///         negated; x is 0 where nothing transparent shows. All are of FrameSpec::samples
+///         negated; x is 0 without visible transparent surfaces. All are of FrameSpec::samples
 /// Space   lighting space, through the vertex function that every pass shares
 struct TransparentDepthPass {
     struct Inputs {

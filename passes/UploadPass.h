@@ -3,8 +3,8 @@
 
 namespace tessera::passes {
 
-/// Uploads a view's camera and its draws.
-/// Writes  the view's constants; rows and commands of the draws that it may see; what the scene's hook reads
+/// Uploads a view's camera and draws.
+/// Writes  the view's constants; rows and commands of the draws that may be visible; constants of the scene's hook
 struct UploadViewPass {
     struct Outputs {
         graph::BufferHandle constants, rows, commands;
@@ -14,10 +14,10 @@ struct UploadViewPass {
     static Outputs add(graph::Graph& graph, const frame::FrameSpec& spec, const frame::DrawnView* drawn);
 };
 
-/// Puts a view's lights on the GPU.
-/// Writes  light texels (shaders/shared/light.h), faces of shadow maps behind them, the constants of lighting; where an
-///         environment shines or is seen, shared::EnvironmentConstants; where shadows are traced,
-///         shared::CasterTreeConstants; where area lights are seen, shared::SeenLightTexels
+/// Uploads a view's lights.
+/// Writes  light texels (shaders/shared/light.h), followed by faces of shadow maps; lighting constants;
+///         shared::EnvironmentConstants if an environment lights surfaces or is visible; shared::CasterTreeConstants if
+///         shadows are traced; shared::SeenLightTexels if area lights are visible
 /// Space   lighting space
 struct UploadLightsPass {
     struct Outputs {

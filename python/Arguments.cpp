@@ -47,12 +47,12 @@ double numberOf(const py::handle& value, std::string_view called) {
     return number;
 }
 
-/// A number as the command line takes it; whole ones, NumPy's too, to the last digit.
+/// A number as command-line text; whole numbers, including NumPy's, keep all digits.
 std::string numberTextOf(const py::handle& value, std::string_view called) {
     if (!PyIndex_Check(value.ptr())) return fmt::format("{}", numberOf(value, called));
     const auto whole = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
     if (!whole) throw py::error_already_set();
-    // Python refuses to write numbers of thousands of digits.
+    // Python refuses to format numbers of thousands of digits.
     const auto text = py::reinterpret_steal<py::str>(PyObject_Str(whole.ptr()));
     if (!text) refuseHugeNumber(called);
     return text;
@@ -62,14 +62,14 @@ bool isList(const py::handle& value) {
     return PySequence_Check(value.ptr()) && !PyUnicode_Check(value.ptr()) && !PyBytes_Check(value.ptr());
 }
 
-/// The numbers of a sequence, a tuple or an array, such as (640, 360).
+/// The items of a sequence, tuple or array, such as (640, 360).
 std::vector<py::object> itemsOf(const py::handle& value) {
     std::vector<py::object> items;
     for (const py::handle item : py::iter(value)) items.push_back(py::reinterpret_borrow<py::object>(item));
     return items;
 }
 
-/// The value of a setting, whatever its kind, as the command line would say it.
+/// A setting's value of any kind, as command-line text.
 std::string settingText(const engine::Setting& setting, std::string_view called, const py::handle& value) {
     if (PyUnicode_Check(value.ptr())) return textOf(value, called);
     if (PyBool_Check(value.ptr())) {
@@ -77,7 +77,7 @@ std::string settingText(const engine::Setting& setting, std::string_view called,
             refuseType(called, "a str or a number", value);
         return value.cast<bool>() ? "on" : "off";
     }
-    if (!isList(value)) { // arrays call themselves numbers too
+    if (!isList(value)) { // arrays pass isNumber() too
         if (!isNumber(value)) refuseType(called, "a str, a number, a bool or (width, height)", value);
         return numberTextOf(value, called);
     }
@@ -153,7 +153,7 @@ std::string pathOf(const py::handle& value, std::string_view called) {
         PyErr_Clear();
         refuseType(called, "a str or a path", value);
     }
-    // Names of files may be bytes that are no UTF-8.
+    // File names may hold bytes that are not UTF-8.
     PyObject* encoded = nullptr;
     if (PyUnicode_FSConverter(path.ptr(), &encoded) == 0) {
         PyErr_Clear();

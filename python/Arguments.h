@@ -8,27 +8,26 @@
 
 #include "apps/Request.h"
 
-/// What Python's callers give, as the options of the command line; and names of files that they are given.
+/// Conversion of Python arguments to command-line options, and of file names to Python strings.
 namespace tessera::python {
 
-/// Adds keywords to the options; None says nothing. Throws TypeError, as Python does, for a word that is no keyword of
-/// `function`, with the nearest ones, and for values of another type; InputError as the command line does. `further`
-/// are keywords that the function has besides.
+/// Adds keywords to the options; None leaves an option unset. Throws TypeError for values of the wrong type and for
+/// keywords unknown to `function`, naming the nearest ones; InputError like the command line. `further`: additional
+/// keywords of the function.
 void takeKeywords(const pybind11::kwargs& keywords, std::string_view function, app::FrameOptions& options,
                   const std::vector<std::string_view>& further = {});
 
-/// The path or name that a str or os.PathLike stands for. Throws TypeError, or InputError for one that no file can
-/// have.
+/// The path or name in a str or os.PathLike. Throws TypeError, or InputError for a name that no file can have.
 std::string pathOf(const pybind11::handle& value, std::string_view called);
-/// A str, or what is iterated over, each such a path or name. Throws TypeError.
+/// The paths or names in a str, an os.PathLike or a sequence of them. Throws TypeError.
 std::vector<std::string> pathsOf(const pybind11::handle& value, std::string_view called);
-/// A camera of the scene or a clip: a name, or a number counted from 0. Throws TypeError.
+/// A camera or clip of the scene: its name, or its number counted from 0. Throws TypeError.
 std::string nameOrNumberOf(const pybind11::handle& value, std::string_view called);
 
-/// A whole number, or nothing for None. Throws TypeError, or InputError for one that no int holds.
+/// A whole number, or nothing for None. Throws TypeError, or InputError if it does not fit an int.
 std::optional<int> wholeNumberOf(const pybind11::handle& value, std::string_view called);
 
-/// A name of a file, or one that may come from there, as os.fsdecode() gives it: it may hold bytes that are no UTF-8.
+/// A file name, or a name that may come from one, as os.fsdecode() decodes it: it may hold bytes that are not UTF-8.
 pybind11::str fileNameOf(const std::string& name);
 
 } // namespace tessera::python

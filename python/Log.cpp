@@ -26,7 +26,7 @@ protected:
     void flush_() override {}
 
 private:
-    std::vector<std::string> lines_; ///< under mutex_
+    std::vector<std::string> lines_; ///< guarded by mutex_
 };
 
 const std::shared_ptr<KeptLines>& keptLines() {

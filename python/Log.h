@@ -4,9 +4,9 @@
 
 namespace tessera::python {
 
-/// From now on what the library warns of is kept, for Python's warnings, instead of printed.
+/// From now on keeps the library's warnings, to be issued as Python warnings, instead of printing them.
 void keepLog();
-/// What was warned of since the last call.
+/// Removes and returns the kept warnings.
 std::vector<std::string> takeLog();
 
 } // namespace tessera::python

@@ -19,7 +19,7 @@
 #include "python/PictureClass.h"
 #include "python/Work.h"
 
-/// The Python module. Here stands what Python sees; what it does stands in Work.h.
+/// The Python module's interface. Work.h declares the functions behind it.
 namespace tessera::python {
 
 namespace {
@@ -44,7 +44,7 @@ std::shared_ptr<PyScene> loadScene(const py::handle& source, const py::object& p
     return scene;
 }
 
-/// The scene that is given, or one of that name which lives as long as the call; and its options with further keywords.
+/// The given scene, or one loaded by name for this call only, and its options extended by the keywords.
 struct Given {
     std::shared_ptr<PyScene> scene;
     app::FrameOptions options;
@@ -78,7 +78,7 @@ std::unique_ptr<Rendered> renderPicture(const py::handle& scene, const py::objec
     return rendered;
 }
 
-/// "forward,deferred" of a str or of several.
+/// A str, or several joined: "forward,deferred".
 std::string techniquesOf(const py::object& techniques) {
     std::string text;
     if (techniques.is_none()) return text;
@@ -112,7 +112,7 @@ py::object planFrame(const py::handle& scene, const py::object& also, bool measu
     return parsedJson(json);
 }
 
-/// A folder of this name, or one that goes with this object.
+/// A folder of the given name, or a temporary one that the destructor removes.
 class BenchFolder {
 public:
     explicit BenchFolder(const py::object& output) : isOwn_(output.is_none()) {
@@ -203,7 +203,7 @@ py::list listLoadOptions() {
 
 // ---- Errors --------------------------------------------------------------------------------------------------------
 
-/// In the terms of Python's callers. Names of files may hold bytes that are no UTF-8.
+/// Raises a Python error, with flags replaced by keywords. File names in it may hold bytes that are not UTF-8.
 void raise(PyObject* type, const char* what) {
     const std::string text = app::withKeywords(what);
     const auto message =
@@ -212,7 +212,7 @@ void raise(PyObject* type, const char* what) {
 }
 
 void translateErrors(py::module_& module) {
-    // Never destroyed: the interpreter ends before such variables do.
+    // Never destroyed: static destructors run after the interpreter has ended.
     static const auto* const inputError = new py::exception<InputError>(module, "InputError", PyExc_ValueError);
     inputError->attr("__doc__") =
         "What was given cannot be used: a missing or broken file, an unknown name, a value out "
@@ -323,7 +323,7 @@ PYBIND11_MODULE(tessera, module) {
     defineFunctions(module);
     module.attr("__version__") = TESSERA_VERSION;
     module.attr("__commit__") = tessera::app::kCommit;
-    // While the interpreter is there: the worker's callers wait for its lock.
+    // Ends the worker while the interpreter still exists, as the worker's callers wait for the interpreter's lock.
     pybind11::module_::import("atexit").attr("register")(
         pybind11::cpp_function([] { Worker::get().end(); }, pybind11::call_guard<pybind11::gil_scoped_release>()));
 }

@@ -21,7 +21,7 @@ namespace tessera::python {
 
 namespace {
 
-/// An array of what a picture holds, not of a copy: it keeps the picture alive, and cannot be written to.
+/// A read-only array that refers to the image's memory and keeps the image alive.
 template <typename T>
 py::array viewOf(const py::object& owner, const T* data, std::vector<py::ssize_t> shape,
                  std::vector<py::ssize_t> strides) {
@@ -30,7 +30,7 @@ py::array viewOf(const py::object& owner, const T* data, std::vector<py::ssize_t
     return array;
 }
 
-/// Height x width x channels of RGBA, from channel `first`; of one channel height x width.
+/// `channels` channels of RGBA from channel `first`: height x width x channels, or height x width for one channel.
 py::array channelsOf(const py::object& self, int first, int channels) {
     const auto& picture = self.cast<const Rendered&>().picture;
     constexpr py::ssize_t kFloat = sizeof(float);

@@ -3,7 +3,7 @@
 
 namespace tessera::python {
 
-/// Adds the class tessera.Picture, of Rendered.
+/// Adds the class tessera.Picture, which wraps Rendered.
 void definePicture(pybind11::module_& module);
 
 } // namespace tessera::python

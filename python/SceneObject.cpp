@@ -16,7 +16,7 @@
 
 namespace tessera::python {
 
-/// The worker's share of a scene.
+/// The part of a scene owned by the worker.
 struct SceneObject::Slot {
     std::optional<LoadedScene> loaded;
 
@@ -25,7 +25,7 @@ struct SceneObject::Slot {
     Slot(const Slot&) = delete;
     Slot& operator=(const Slot&) = delete;
 
-    /// Those that may hold something, on the worker's thread.
+    /// All slots that may hold a loaded scene. On the worker's thread.
     static std::set<Slot*>& all() {
         static std::set<Slot*> slots;
         return slots;
@@ -37,19 +37,19 @@ struct SceneObject::Slot {
 
 namespace {
 
-/// Width to height as text, in lowest terms: of a size a load depends on no more.
+/// The aspect ratio as text, in lowest terms: the only part of a size that a load depends on.
 std::string aspectText(const std::string& size) {
     const glm::ivec2 pixels = app::sizeNamed("--size", size);
     const int common = std::gcd(pixels.x, pixels.y);
     return fmt::format("{}x{}", pixels.x / common, pixels.y / common);
 }
 
-/// What of the options a load depends on, as text.
+/// The options that a load depends on, as text.
 std::string loadText(const app::FrameOptions& options, bool isPlaying) {
     app::FrameOptions ofLoad = options;
     ofLoad.settings.clear();
     if (const auto size = options.said("size")) ofLoad.settings["size"] = aspectText(*size);
-    if (options.pose != scenes::CameraChange()) { // which is of the camera that is chosen, where it then is
+    if (options.pose != scenes::CameraChange()) { // the pose applies to the selected camera at its current position
         if (const auto camera = options.said("camera")) ofLoad.settings["camera"] = *camera;
         if (const auto time = options.said("time"); time && isPlaying) ofLoad.settings["time"] = *time;
     }
@@ -66,7 +66,7 @@ engine::Renderer& LoadedScene::rendererOn(gpu::Context& context) {
 void LoadedScene::pose(const std::string& file) {
     const double timeSeconds = request.settings.timeSeconds;
     if (posedAtSeconds == timeSeconds || !scenes::isPlaying(request.scene)) return;
-    posedAtSeconds.reset(); // where posing fails, that is nowhere
+    posedAtSeconds.reset(); // undefined if posing fails
     app::poseAt(request.scene, timeSeconds, file);
     if (renderer) renderer->partsMoved(scenes::movingParts(request.scene));
     posedAtSeconds = timeSeconds;
@@ -82,11 +82,11 @@ SceneObject::~SceneObject() {
 }
 
 LoadedScene& SceneObject::resolved(const app::FrameOptions& options, const Job& job) {
-    // A mistake in them is found before a large scene is read for nothing.
+    // Finds mistakes in the options before a large scene is read.
     app::Request request = app::resolveWithoutScene(options);
     std::optional<LoadedScene>& loaded = slot_->loaded;
     if (!loaded || loadText(options, scenes::isPlaying(loaded->request.scene)) != loaded->asLoaded) {
-        loaded.reset(); // two scenes may be too much for the memory
+        loaded.reset(); // memory may not hold two scenes
         Slot::all().insert(slot_);
         std::vector<std::string> files;
         try {

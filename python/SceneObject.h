@@ -10,21 +10,21 @@
 
 namespace tessera::python {
 
-/// A scene in memory, and all that was derived from it. On the worker's thread.
+/// A loaded scene and all data derived from it. On the worker's thread.
 struct LoadedScene {
-    std::string asLoaded; ///< what of the options its load depended on
+    std::string asLoaded; ///< the options that the load depended on
     app::Request request;
-    std::unique_ptr<engine::Renderer> renderer; ///< of the request's scene; null until one is asked for
-    bool hasFiltered = false;                   ///< the environment
-    std::optional<double> posedAtSeconds;       ///< where a clip plays; none: anywhere
+    std::unique_ptr<engine::Renderer> renderer; ///< for request.scene; null until first used
+    bool hasFiltered = false;                   ///< whether the environment is filtered
+    std::optional<double> posedAtSeconds;       ///< time of the current pose of an active clip; none: undefined
 
     engine::Renderer& rendererOn(gpu::Context& context);
-    /// Shows a scene whose clip plays at the time of the request.
+    /// Poses a scene with an active clip at the time of the request. Errors name `file`.
     void pose(const std::string& file);
 };
 
-/// A scene that is loaded once and drawn often: what a caller of Python holds. The memory is the worker's, which drops
-/// it too.
+/// A scene that is loaded once and drawn often, as held by a Python caller. The worker owns its memory and frees it
+/// too.
 class SceneObject {
 public:
     explicit SceneObject(app::FrameOptions options);
@@ -32,13 +32,13 @@ public:
     SceneObject(const SceneObject&) = delete;
     SceneObject& operator=(const SceneObject&) = delete;
 
-    /// As they were said of the scene.
+    /// The options given for the scene.
     const app::FrameOptions& options() const { return options_; }
 
-    /// The request that options ask for, of this scene: it is loaded anew where they ask for another load. On the
-    /// worker's thread. Throws InputError, and Stopped.
+    /// Resolves options for this scene, and loads it again if they affect the load. On the worker's thread. Throws
+    /// InputError and Stopped.
     LoadedScene& resolved(const app::FrameOptions& options, const Job& job);
-    /// Drops what is loaded: after work that was given up half done.
+    /// Unloads the scene, after work that failed half way.
     void drop();
 
 private:
@@ -47,7 +47,7 @@ private:
     Slot* slot_;
 };
 
-/// What a loaded scene consists of, for people who look at it.
+/// Summary of a loaded scene for people.
 struct SceneFacts {
     std::string name;
     std::size_t triangles = 0, lights = 0, materials = 0;

@@ -20,12 +20,12 @@ namespace tessera::python {
 
 namespace {
 
-/// What a driver draws half and leaves is drawn anew the next time, with all that was made for it.
+/// Unloads the scene if `work` fails in the driver: the next call then starts anew, without partly drawn data.
 template <typename Work>
 auto orDrop(SceneObject& scene, const Work& work) {
     try {
         return work();
-    } catch (const InputError&) { // before anything is drawn
+    } catch (const InputError&) { // thrown before anything is drawn
         throw;
     } catch (...) {
         scene.drop();
@@ -37,7 +37,7 @@ void warnAbout(const std::string& what, const std::string& text) {
     if (!text.empty()) spdlog::warn("{}", oneLine(what + ": " + text));
 }
 
-/// The renderer of the loaded scene, with its environment filtered where frames of the request look it up.
+/// The renderer of the loaded scene. Filters the environment if frames of the request sample it.
 engine::Renderer& readyRenderer(LoadedScene& loaded, gpu::Context& context) {
     engine::Renderer& renderer = loaded.rendererOn(context);
     const bool looksUp =
@@ -65,8 +65,8 @@ Rendered renderReference(LoadedScene& loaded, const app::FrameOptions& options, 
     return rendered;
 }
 
-/// Counts the objects whose light spreads as the job's steps. The renderer outlives the job, whether it draws or
-/// throws.
+/// Renders a frame and counts diffused objects as steps of the job. The renderer outlives the job, so the callback is
+/// removed even on exceptions.
 engine::RenderedFrame renderTelling(engine::Renderer& renderer, const engine::ViewRequest& request, Job& job) {
     struct Telling {
         engine::Renderer& renderer;

@@ -9,11 +9,11 @@
 #include "python/SceneObject.h"
 #include "python/Worker.h"
 
-/// What the module's functions do on the worker's thread: what the commands of their names do, without files and
-/// tables. They throw what those throw, and Stopped.
+/// The module's functions, run on the worker's thread: the work of the commands of the same names, without their
+/// printed tables. They throw the commands' exceptions, and Stopped.
 namespace tessera::python {
 
-/// A rendered picture.
+/// A rendered image with the names of its scene, technique and view.
 struct Rendered {
     Picture picture;    ///< linear
     DisplayImage shown; ///< as a display shows it
@@ -28,13 +28,13 @@ std::string compareJson(SceneObject& scene, const app::ComparisonOptions& option
 /// The JSON of `tessera plan --json -`.
 std::string planJson(SceneObject& scene, const app::PlanningOptions& options, Job& job);
 
-/// Where and of what a benchmark is made.
+/// Parameters of a benchmark.
 struct BenchWishes {
     app::BenchJobOptions options;
     std::string matrix; ///< JSON; empty: none
-    std::string folder; ///< which exists
+    std::string folder; ///< must exist
     bool resumes = false;
-    std::string command; ///< as its record names it
+    std::string command; ///< its name in the record
 };
 /// The JSON that `tessera bench` writes into bench.json.
 std::string benchJson(const BenchWishes& wishes, Job& job);

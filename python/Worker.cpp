@@ -18,10 +18,10 @@ namespace tessera::python {
 
 namespace {
 
-/// A key press is answered within this time, where the work has steps; progress is told as often.
+/// Interval at which a waiting caller handles signals, such as Ctrl-C, and reports progress.
 constexpr std::chrono::milliseconds kPause(50);
 
-/// Names of files in them may hold bytes that are no UTF-8. Throws where a filter of warnings makes one an error.
+/// Issues Python warnings; file names in them may hold bytes that are not UTF-8. Throws if a warning filter raises one.
 void warn(const std::vector<std::string>& messages) {
     for (const std::string& message : messages) {
         const std::string text = oneLine(app::withKeywords(message));
@@ -36,7 +36,7 @@ struct Worker::Task {
     Job job;
     std::mutex mutex;
     std::condition_variable ended;
-    bool hasEnded = false; ///< under mutex; what follows is written before
+    bool hasEnded = false; ///< guarded by mutex; the members below are written before it is set
     std::exception_ptr error;
     std::vector<std::string> warnings;
 
@@ -60,7 +60,7 @@ struct Worker::Task {
 };
 
 Worker& Worker::get() {
-    // Never destroyed: end() ends it, while the interpreter is there.
+    // Never destroyed: end() ends the thread while the interpreter still exists.
     static Worker* const worker = new Worker;
     return *worker;
 }
@@ -135,7 +135,7 @@ void Worker::destroyThere(std::function<void()> destroy) {
     const auto task = std::make_shared<Task>();
     task->work = [destroy = std::move(destroy)](Job&) { destroy(); };
     const std::lock_guard lock(mutex_);
-    if (isEnding_) return; // atEnd() has dropped all that is large
+    if (isEnding_) return; // atEnd() has freed the large data
     tasks_.push_back(task);
     changed_.notify_all();
 }
@@ -155,7 +155,7 @@ gpu::Context& Worker::context() {
         }
         try {
             context_ = gpu::Context::create(options);
-        } catch (...) { // another kind may do
+        } catch (...) { // another kind may work
             const std::lock_guard lock(mutex_);
             hasContext_ = false;
             throw;

@@ -19,21 +19,21 @@
 
 namespace tessera::python {
 
-/// A job was given up, as its stop was requested.
+/// Thrown by a job whose stop was requested.
 class Stopped : public std::exception {
 public:
     const char* what() const noexcept override { return "the work was given up"; }
 };
 
-/// Work under way. Steps may be counted from any thread.
+/// Progress and stop flag of running work. Steps may be counted from any thread.
 class Job {
 public:
-    /// So many steps are to come; those done are counted from 0 again.
+    /// Sets the number of steps to come and resets the number done.
     void expect(std::size_t steps) {
         done_ = 0;
         expected_ = steps;
     }
-    /// Throws Stopped where a stop was requested.
+    /// Counts finished steps. Throws Stopped if a stop was requested.
     void advance(std::size_t steps = 1) {
         done_ += steps;
         check();
@@ -51,27 +51,26 @@ private:
     std::stop_source stop_;
 };
 
-/// The one thread that has the OpenGL context: whatever thread of Python asks for work, it is done there, in turn. The
-/// caller waits without the interpreter's lock, and meanwhile handles signals and tells of progress.
+/// The single thread that owns the OpenGL context. Work requested by any Python thread runs on it, in order. The caller
+/// waits without the interpreter's lock, and meanwhile handles signals and reports progress.
 class Worker {
 public:
     static Worker& get();
 
-    /// Does the work, and then issues what was warned of as Python's warnings. The caller holds the interpreter's lock.
-    /// `progress`, a callable or None, is called with steps done and expected, on the caller's thread. Throws what the
-    /// work throws, and what signals' handlers and `progress` raise: then the work is stopped at its next step, and
-    /// what they raised is thrown when it has. Throws std::runtime_error in a process that was forked from the
-    /// worker's.
+    /// Runs the work, then issues its logged warnings as Python warnings. The caller holds the interpreter's lock.
+    /// `progress`, a callable or None, is called with (steps done, expected) on the caller's thread. Rethrows the
+    /// work's exceptions. If a signal handler or `progress` raises, the work stops at its next step and the exception
+    /// is then rethrown. Throws std::runtime_error in a process forked from the worker's.
     void run(const pybind11::object& progress, const std::function<void(Job&)>& work);
 
-    /// Has something destroyed there, and does not wait. What is left of it in a forked process stays as it is.
+    /// Calls `destroy` on the worker's thread, without waiting. Does nothing in a forked process or after end().
     void destroyThere(std::function<void()> destroy);
-    /// Calls it there when the interpreter ends, before the context goes.
+    /// Calls `last` on the worker's thread when the interpreter ends, before the context is destroyed.
     void atEnd(std::function<void()> last);
 
-    /// Made when it is first asked for; on the worker's thread only.
+    /// Created on first use; on the worker's thread only.
     gpu::Context& context();
-    /// Of which kind; throws std::runtime_error once there is one of another. Where none could be made, there is none.
+    /// Throws std::runtime_error once a context of another kind exists; failed attempts to create one do not count.
     void chooseContext(gpu::ContextKind kind);
 
     /// Ends the thread. Later run()s throw std::runtime_error.
@@ -84,7 +83,7 @@ private:
     bool isForked() const;
 
     pid_t process_;
-    std::mutex mutex_; ///< of what follows, but for the context
+    std::mutex mutex_; ///< guards tasks_, last_, isEnding_, hasContext_ and kind_
     std::condition_variable changed_;
     std::deque<std::shared_ptr<Task>> tasks_;
     std::vector<std::function<void()>> last_;

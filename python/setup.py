@@ -17,7 +17,7 @@ class BuildByCMake(build_ext):
     def build_extension(self, extension):
         build = pathlib.Path(self.build_temp).resolve()
         target = pathlib.Path(self.get_ext_fullpath(extension.name)).resolve().parent
-        # That of which a virtual environment was made: it has the headers, and it stays when the environment is removed.
+        # The interpreter behind a virtual environment: it has the headers, and outlives the environment.
         python = os.path.realpath(sys.executable)
         for command in (["cmake", "--preset", "python", "-B", build, f"-DPython_EXECUTABLE={python}"],
                         ["cmake", "--build", build, "--target", "tessera_python"],

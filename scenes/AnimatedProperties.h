@@ -14,15 +14,15 @@
 #include "scenes/Material.h"
 #include "scenes/Texture.h"
 
-/// What clips may change, as a table. Source: glTF 2.0 specification, section 3.11; KHR_animation_pointer.
+/// The properties that clips can animate. Source: glTF 2.0 specification, section 3.11; KHR_animation_pointer.
 namespace tessera::scenes {
 
-/// What a channel of a clip changes; animatedProperties() says what each of them is.
+/// The property that an animation channel changes; animatedProperties() describes each.
 enum class AnimatedProperty : std::uint8_t {
     Translation,
     Rotation,
     Scale,
-    NodeVisibility, ///< 0 or 1: multiplies Scale, and LightIntensity of lights below: AnimationChannel::factor
+    NodeVisibility, ///< 0 or 1; multiplies Scale, and LightIntensity of lights below (AnimationChannel::factor)
     Weights,
     LightColor,
     LightIntensity,
@@ -36,7 +36,7 @@ enum class AnimatedProperty : std::uint8_t {
     NormalScale,
     OcclusionStrength,
     AlphaCutoff,
-    EmissiveStrength, ///< multiplies Emissive: AnimationChannel::factor
+    EmissiveStrength, ///< multiplies Emissive (AnimationChannel::factor)
     Ior,
     SpecularFactor,
     SpecularColor,
@@ -68,10 +68,10 @@ enum class AnimatedProperty : std::uint8_t {
     Count
 };
 
-/// Texture: a material's use of one.
+/// The kind of scene element that has a property. Texture: the transform of one of a material's textures.
 enum class AnimatedOwner : std::uint8_t { Node, Weights, Light, Material, Texture, Camera };
 
-/// Whether what it owns is in Rig::numbers.
+/// Whether the owner's properties are listed in Rig::numbers.
 constexpr bool ownsNumbers(AnimatedOwner owner) {
     return owner != AnimatedOwner::Node && owner != AnimatedOwner::Weights;
 }
@@ -81,12 +81,12 @@ constexpr bool isOfMaterial(AnimatedOwner owner) {
     return owner == AnimatedOwner::Material || owner == AnimatedOwner::Texture;
 }
 
-/// A member of what owns the property.
+/// The data member of the owner that holds the property.
 using AnimatedMember =
     std::variant<std::monostate, float Light::*, glm::vec3 Light::*, float Material::*, glm::vec3 Material::*,
                  glm::vec4 Material::*, float TextureTransform::*, glm::vec2 TextureTransform::*, double Camera::*>;
 
-/// The numbers of a member, where `owner` has it; all others are 0.
+/// The components of a member; unused ones are 0, and all are 0 if `owner` lacks the member.
 template <typename Owner>
 glm::dvec4 numberOf(const Owner& owner, const AnimatedMember& member) {
     glm::dvec4 number(0.0);
@@ -106,11 +106,11 @@ glm::dvec4 numberOf(const Owner& owner, const AnimatedMember& member) {
 
 struct AnimatedPropertyInfo {
     AnimatedProperty property;
-    AnimatedOwner owner;   ///< whose list of Rig a channel's target counts in
-    std::string_view path; ///< in glTF, from the node, light, material, texture's place or camera
-    int width;             ///< numbers of a value; 0: one a morph target
+    AnimatedOwner owner;   ///< selects the Rig list that AnimationChannel::target indexes
+    std::string_view path; ///< in glTF, relative to the node, light, material, texture info or camera
+    int width;             ///< components of a value; 0: one per morph target
     AnimatedMember member{};
-    /// Bounds of what a clip says, within those that the member has anyway.
+    /// Bounds of animated values, besides those of the member itself.
     double least = -kInfinity, most = kInfinity;
 
     constexpr AnimatedPropertyInfo(AnimatedProperty property_, AnimatedOwner owner_, std::string_view path_, int width_)
@@ -132,7 +132,7 @@ private:
 };
 
 namespace detail {
-// Short of 0 and of 180 degrees, at which a picture has no size.
+// Just inside 0 and 180 degrees, where the projection degenerates.
 inline constexpr double kLeastFovRadians = 1e-6, kMostFovRadians = 3.14159;
 
 inline constexpr auto kAnimatedProperties = [] {
@@ -212,7 +212,7 @@ consteval bool areAnimatedPropertiesSound() {
 static_assert(areAnimatedPropertiesSound(), "the table of animated properties follows the enumeration");
 } // namespace detail
 
-/// The only list of them; row i is that of property i.
+/// The single table of animated properties, indexed by AnimatedProperty.
 constexpr std::span<const AnimatedPropertyInfo> animatedProperties() {
     return detail::kAnimatedProperties;
 }

@@ -13,7 +13,7 @@ void makeUnit(std::span<double> quaternion) {
     for (const double number : quaternion) largest = std::max(largest, std::abs(number));
     if (!(largest > 0.0)) {
         std::ranges::fill(quaternion, 0.0);
-        quaternion.back() = 1.0; // a spline through zero has no direction there
+        quaternion.back() = 1.0; // a spline through zero has no direction
         return;
     }
     double square = 0.0;
@@ -36,12 +36,12 @@ void atKey(const AnimationSampler& sampler, bool isRotation, std::size_t key, st
     if (isRotation) makeUnit(value);
 }
 
-/// Between unit quaternions the shortest way, at constant speed.
+/// Interpolates unit quaternions along the shorter arc at constant speed.
 void slerp(std::span<double> from, std::span<const double> to, double share) {
     double dot = 0.0;
     for (std::size_t i = 0; i < from.size(); ++i) dot += from[i] * to[i];
     const double sign = dot < 0.0 ? -1.0 : 1.0;
-    // Of the angle the half by its tangent, which keeps its digits near 0 too.
+    // The half angle is computed from its tangent, which stays accurate near 0.
     double difference = 0.0, sum = 0.0;
     for (std::size_t i = 0; i < from.size(); ++i) {
         difference += (sign * to[i] - from[i]) * (sign * to[i] - from[i]);
@@ -50,7 +50,7 @@ void slerp(std::span<double> from, std::span<const double> to, double share) {
     const double angleRadians = 2.0 * std::atan2(std::sqrt(difference), std::sqrt(sum));
     const double sine = std::sin(angleRadians);
     double a = 1.0 - share, b = share;
-    if (sine > 1e-12) { // below, the arc is its chord
+    if (sine > 1e-12) { // for smaller angles arc and chord coincide
         a = std::sin((1.0 - share) * angleRadians) / sine;
         b = std::sin(share * angleRadians) / sine;
     }

@@ -13,18 +13,18 @@ double crossOf(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// Of the triangle a b c: 1 counterclockwise, -1 clockwise, 0 where the three lie on a line.
+/// Orientation of the triangle a b c: 1 counterclockwise, -1 clockwise, 0 collinear.
 int turnOf(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
     const double cross = crossOf(b - a, c - a);
     return int(cross > 0.0) - int(cross < 0.0);
 }
 
-/// Of a place on the line through a and b.
+/// Whether a point on the line through a and b lies between them.
 bool isBetween(const glm::dvec2& place, const glm::dvec2& a, const glm::dvec2& b) {
     return glm::all(glm::lessThanEqual(glm::min(a, b), place)) && glm::all(glm::lessThanEqual(place, glm::max(a, b)));
 }
 
-/// Whether the edges from a to b and from c to d have a place in common.
+/// Whether the edges a b and c d share a point.
 bool doMeet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
     const int ofC = turnOf(a, b, c), ofD = turnOf(a, b, d), ofA = turnOf(c, d, a), ofB = turnOf(c, d, b);
     if (ofC * ofD < 0 && ofA * ofB < 0) return true;
@@ -37,7 +37,7 @@ bool doMeet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const
 double signedArea(const LightCorners& corners) {
     const std::span<const glm::vec2> all = corners.all();
     double area = 0.0;
-    // From the first corner, so that an outline far from its position keeps its digits.
+    // Relative to the first corner, which keeps the precision of outlines far from the light's position.
     for (std::size_t i = 2; i < all.size(); ++i)
         area += 0.5 * crossOf(glm::dvec2(all[i - 1]) - glm::dvec2(all[0]), glm::dvec2(all[i]) - glm::dvec2(all[0]));
     return area;
@@ -75,7 +75,7 @@ std::vector<std::array<std::uint8_t, 3>> trianglesOf(const LightCorners& corners
                 return other != a && other != b && other != c && turn(a, b, other) >= 0 && turn(b, c, other) >= 0 &&
                        turn(c, a, other) >= 0;
             });
-            // One on a straight edge takes nothing away.
+            // A corner on a straight edge can always be clipped.
             if (turn(a, b, c) == 0 || (turn(a, b, c) > 0 && isFree)) {
                 ear = i;
                 break;
@@ -106,7 +106,7 @@ std::string cornersProblem(const LightCorners& corners) {
         const glm::dvec2 before = at(i + 1) - at(i), after = at(i + 2) - at(i + 1);
         if (turnOf(at(i), at(i + 1), at(i + 2)) == 0 && glm::dot(before, after) < 0.0)
             return fmt::format("fold back at number {}; no area lies between the two edges", (i + 1) % count);
-        // Edges that follow each other have a corner in common.
+        // Adjacent edges share a corner and are skipped.
         for (std::size_t j = i + 2; j < count; ++j)
             if ((j + 1) % count != i && doMeet(at(i), at(i + 1), at(j), at(j + 1)))
                 return fmt::format("let the edge from number {} to {} meet that from number {} to {}; move one of them",
@@ -145,7 +145,7 @@ double largestSeenArea(const Light& light) {
     case LightType::Sphere:
         return disk;
     case LightType::Tube:
-        // From its side and from its end; what is seen from between is less than both together.
+        // Side view plus end view: an upper bound of all oblique views.
         return 2.0 * radius * double(light.lengthMetres) + disk;
     case LightType::Polygon:
         return std::abs(signedArea(light.corners));
@@ -175,10 +175,10 @@ double surfaceReachMetres(const Light& light) {
 
 std::optional<glm::dvec3> acrossFrom(const glm::dvec3& direction, const glm::dvec3& wish) {
     const double along = glm::dot(wish, direction);
-    // A vector that is at right angles but for its rounding keeps every digit.
+    // A vector that is perpendicular up to rounding is returned unchanged.
     if (std::abs(along) < 4e-16) return wish;
     const glm::dvec3 across = wish - along * direction;
-    constexpr double kLeastAcross = 1e-6; // of which half of the digits are left
+    constexpr double kLeastAcross = 1e-6; // half of the digits are left
     const double length = glm::length(across);
     if (!(length > kLeastAcross)) return {};
     return across / length;

@@ -7,46 +7,46 @@
 
 #include "scenes/Light.h"
 
-/// The surfaces of area lights (LightTypeInfo::isArea) as numbers.
+/// Geometry of the surfaces of area lights (LightTypeInfo::isArea).
 namespace tessera::scenes {
 
-/// A width, height, length or radius below this counts as none, and the light is dark: products of two of them keep
-/// their digits in single precision. So does an outline's area below its square.
+/// Smallest width, height, length or radius of a light that shines: products of two such lengths keep their precision
+/// in fp32. For the area of an outline the limit is its square.
 inline constexpr float kLeastAreaMetres = 1e-6f;
 
-/// The square metres within an outline; above 0 where it runs counterclockwise, from x to y.
+/// Signed area of an outline in m^2, positive if it runs counterclockwise, from x to y.
 double signedArea(const LightCorners& corners);
 
-/// The middle of the area within an outline, in metres as its corners.
+/// Centroid of an outline's area, in metres like its corners.
 glm::dvec2 middleOf(const LightCorners& corners);
 
-/// The numbers of the corners of triangles that cover an outline once; on straight edges some have no area. Of corners
-/// that make no outline (cornersProblem()) any triangles.
+/// Triangulates an outline; returns corner indices. Corners on straight edges give triangles without area. For corners
+/// that form no outline (cornersProblem()) the triangles are arbitrary.
 std::vector<std::array<std::uint8_t, 3>> trianglesOf(const LightCorners& corners);
 
-/// What keeps corners from being the outline of an area: too few or too many, corners too far out or in one place,
-/// edges that cross, touch or fold back; empty where nothing does. It follows "its corners". Corners count from 0.
+/// Describes why corners form no valid outline: too few or too many, too far out, coincident, or with edges that cross,
+/// touch or fold back; empty if it is valid. The text continues "its corners". Corners count from 0.
 std::string cornersProblem(const LightCorners& corners);
 
-/// Whether there is a surface that shines.
+/// Whether the light has an emitting surface.
 bool hasSurface(const Light& light);
 
-/// The largest area in m^2 that the surface shows from anywhere, seen from afar.
+/// Largest projected area of the surface in m^2, over all distant viewpoints; an upper bound for tubes.
 double largestSeenArea(const Light& light);
 
-/// The radius in metres of the ball around the light's position that its surface lies in.
+/// Radius in metres of the bounding sphere of the light's surface, centred at its position.
 double surfaceReachMetres(const Light& light);
 
-/// The unit vector at right angles to a unit direction that is nearest to `wish`, of unit length too; nothing where
-/// that runs along the direction.
+/// The unit vector perpendicular to unit vector `direction` that is nearest to unit vector `wish`; nothing if the two
+/// are parallel.
 std::optional<glm::dvec3> acrossFrom(const glm::dvec3& direction, const glm::dvec3& wish);
 
-/// A unit vector at right angles to a unit direction, horizontal where the direction is not vertical, else near +X:
-/// Light::alongWS of a light that states none.
+/// Default of Light::alongWS: a unit vector perpendicular to a unit direction, horizontal unless the direction is
+/// vertical, else near +X.
 glm::dvec3 usualAlong(const glm::dvec3& directionWS);
 
-/// Of a light with a direction, a unit vector at right angles to that: Light::alongWS, or of one that may be turned
-/// about its direction and shines the same, usualAlong().
+/// Unit vector perpendicular to the direction of a light that has one: Light::alongWS, or usualAlong() for types whose
+/// rotation about the direction has no effect.
 glm::dvec3 alongOf(const Light& light);
 
 } // namespace tessera::scenes

@@ -16,13 +16,13 @@
 namespace tessera::scenes {
 namespace {
 
-/// Of each of `count` parts of an axis of `size` texels, which texels overlap it.
+/// The texels of an axis that one target texel overlaps.
 struct Overlap {
     int first;
-    std::vector<double> shares; ///< of the part, from the first on
+    std::vector<double> shares; ///< fractions of the target texel, from texel `first` on
 };
 
-/// `measure` tells how much of the axis lies before a place, in texels.
+/// Splits an axis of `size` texels into `count` parts. `measure` integrates the axis up to a position in texels.
 template <typename Measure>
 std::vector<Overlap> overlaps(int size, int count, const Measure& measure) {
     std::vector<Overlap> parts;
@@ -36,7 +36,7 @@ std::vector<Overlap> overlaps(int size, int count, const Measure& measure) {
     return parts;
 }
 
-/// Texels as numbers that may be averaged, and back.
+/// Converts texels to linear values, which can be averaged, and back.
 template <typename Texel>
 class Coding {
 public:
@@ -59,7 +59,7 @@ private:
 
     bool isEncoded(int channel) const { return !linear_.empty() && channel < 3; }
 
-    std::vector<double> linear_; ///< by code; empty: codes are linear
+    std::vector<double> linear_; ///< linear value by code; empty: codes are linear
 };
 
 template <typename Texel>

@@ -8,9 +8,9 @@
 /// Cameras as plain data.
 namespace tessera::scenes {
 
-// Beyond these, squares of distances or depths leave fp32, and techniques would disagree.
-inline constexpr double kNearestPlaneMetres = 1e-9; ///< near plane of a perspective camera, at least
-inline constexpr double kFarthestMetres = 1e15;     ///< any coordinate in the world, near plane or half height, at most
+// Beyond these, squares of distances or depths exceed the range of fp32, and techniques would disagree.
+inline constexpr double kNearestPlaneMetres = 1e-9; ///< minimum near plane of a perspective camera
+inline constexpr double kFarthestMetres = 1e15;     ///< maximum of world coordinates, near planes and half heights
 
 enum class Projection : std::uint8_t { Perspective, Orthographic };
 

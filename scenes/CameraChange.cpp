@@ -39,7 +39,7 @@ void place(Camera& camera, const CameraChange& change) {
         return;
     }
     const glm::dvec3 eyeWS = change.eyeWS.value_or(glm::dvec3(old[3]));
-    // The length of the step must not vanish beside a far eye.
+    // The step scales with the eye's distance, so that rounding does not absorb it.
     const glm::dvec3 aheadWS = eyeWS - glm::dvec3(old[2]) * std::max(1.0, glm::length(eyeWS));
     const glm::dvec3 targetWS = change.targetWS.value_or(aheadWS);
     if (!(glm::distance(eyeWS, targetWS) > 0.0)) fail(camera, "it cannot look at its own place; give another target");
@@ -73,7 +73,7 @@ Camera changedCamera(Camera camera, const CameraChange& change) {
         camera.fovYRadians = glm::radians(*change.fovYDegrees);
     }
     if (change.halfHeightMetres) camera.halfHeightMetres = *change.halfHeightMetres;
-    // A plane of parallel rays may pass through the eye.
+    // The near plane of an orthographic camera may be at the eye.
     if (isPerspective || (change.nearMetres && *change.nearMetres != 0.0))
         requirePositive(camera, change.nearMetres, "near plane");
     if (change.nearMetres) camera.nearMetres = *change.nearMetres;

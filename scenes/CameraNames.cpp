@@ -5,7 +5,7 @@
 namespace tessera::scenes {
 namespace {
 
-constexpr std::size_t kMostCamerasNamed = 5; ///< of which a line has room
+constexpr std::size_t kMostCamerasNamed = 5; ///< as many as fit on a line
 
 } // namespace
 

@@ -4,14 +4,13 @@
 
 #include "scenes/Scene.h"
 
-/// How cameras of a scene are called, as cameraCalled() takes it.
+/// Names of a scene's cameras, as accepted by cameraCalled().
 namespace tessera::scenes {
 
-/// Its name, or its number where it has no name or its name chooses another camera.
+/// The camera's name, or its index if it has no name or the name selects another camera.
 std::string nameOfCamera(const Scene& scene, std::size_t camera);
 
-/// "'side', 'top' and 3 more": the other cameras of the scene, of many the first five; empty where there are
-/// none.
+/// "'side', 'top' and 3 more": the scene's other cameras, at most five by name; empty if there are none.
 std::string otherCamerasText(const Scene& scene, std::size_t camera);
 
 } // namespace tessera::scenes

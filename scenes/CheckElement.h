@@ -6,11 +6,11 @@
 
 #include "scenes/Scene.h"
 
-/// What the parts of checkScene() share: messages that name an element, and questions about numbers.
+/// Helpers of the parts of checkScene(): messages that name an element, and checks of numbers.
 namespace tessera::scenes {
 
-/// How far the length of a unit vector, or a rotation's columns, may be off: the rounding of single precision and of
-/// files with a few decimals, far below the visible.
+/// Tolerance of the length of unit vectors and of a rotation's columns: covers the rounding of fp32 and of files with a
+/// few decimals, far below the visible.
 inline constexpr double kUnitTolerance = 1e-3;
 
 template <typename Vector>
@@ -41,7 +41,7 @@ inline bool isUnit(const glm::dvec3& vector) {
     return allFinite(vector) && std::abs(glm::length(vector) - 1.0) <= kUnitTolerance;
 }
 
-/// One element of a scene, as messages call it.
+/// An element of a scene, as named in messages.
 class CheckedElement {
 public:
     CheckedElement(const Scene& scene, std::string_view kind, std::size_t index, std::string_view name)
@@ -59,15 +59,15 @@ private:
     std::string_view name_;
 };
 
-/// What messages say of bounds.
+/// Describes bounds in messages.
 std::string boundsText(double least, double most);
 
-/// Whether a number, or each component of a vector, lies between the bounds of its field. Nothing else has bounds.
+/// Whether a number, or each component of a vector, lies within the bounds of its field. Other types have no bounds.
 template <typename Value, typename Field>
 bool isWithin(const Value&, const Field&) {
     return true;
 }
-/// Single precision may round a value that is a bound beyond it, so bounds are rounded alike.
+/// Bounds are rounded to fp32 like the value, which may round beyond the exact bound.
 template <typename Field>
 bool isWithin(float value, const Field& field) {
     return value >= float(field.least) && value <= float(field.most); // false for NaN

@@ -14,7 +14,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// All instances of a mesh share its vertices.
+/// Requires that all materials of a moved mesh belong to the hook, since its instances share the vertices.
 void checkMovedMeshes(const Scene& scene, const auto& require) {
     const std::set<std::size_t> moved = hookedMeshes(scene);
     for (const Node& node : scene.nodes)

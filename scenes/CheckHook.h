@@ -3,8 +3,7 @@
 
 namespace tessera::scenes {
 
-/// The part of checkScene() that concerns Scene::hook, for a scene whose nodes are checked. Throws InputError that
-/// names the scene.
+/// Checks Scene::hook, as a part of checkScene() after the nodes. Throws InputError that names the scene.
 void checkHook(const Scene& scene);
 
 } // namespace tessera::scenes

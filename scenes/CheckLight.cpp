@@ -11,7 +11,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// Values between keys stay within the bounds of their member, so those of keys need only be numbers.
+/// Key values only need to be finite: interpolated values are clamped to the bounds of their member.
 void checkKeys(const CheckedElement& element, const LightKeys& keys) {
     const std::vector<double>& times = keys.timesSeconds;
     const std::string_view name = infoOf(keys.of).name;
@@ -33,7 +33,7 @@ void checkKeys(const CheckedElement& element, const LightKeys& keys) {
     element.require(keys.inTangents.size() == times.size() && keys.outTangents.size() == times.size(),
                     fmt::format("has {} in-tangents and {} out-tangents for {} key times; give as many",
                                 keys.inTangents.size(), keys.outTangents.size(), times.size()));
-    // A spline strays from its keys by less than its tangents lead within the time between two keys.
+    // A spline deviates from its keys by less than its tangents times the time between two keys.
     const double seconds = std::max(1.0, times.back() - times.front());
     for (const std::vector<glm::dvec3>* tangents : {&keys.inTangents, &keys.outTangents})
         for (const glm::dvec3& tangent : *tangents) {

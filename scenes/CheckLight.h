@@ -3,7 +3,7 @@
 
 namespace tessera::scenes {
 
-/// The part of checkScene() that concerns a light, its animation and its keyframes. Throws InputError that names the
+/// Checks a light, its animation and its keyframes, as a part of checkScene(). Throws InputError that names the
 /// element.
 void checkLight(const CheckedElement& element, const Light& light);
 

@@ -14,7 +14,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// Checks of one rig.
+/// Checks one rig.
 class RigCheck {
 public:
     explicit RigCheck(const Scene& scene) : scene_(scene), rig_(scene.rig) {}
@@ -183,7 +183,7 @@ private:
 
     const Scene& scene_;
     const Rig& rig_;
-    std::optional<CheckedElement> element_; ///< that is checked
+    std::optional<CheckedElement> element_; ///< the element under check
 };
 
 } // namespace

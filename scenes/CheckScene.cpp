@@ -202,7 +202,7 @@ void checkPlaces(const Scene& scene) {
                                                    kFarthestMetres));
         }
     }
-    // Checked here only where nodes carry them; else checkLight() and checkCamera() do. Far scales leave no direction.
+    // Only for elements attached to nodes; checkLight() and checkCamera() check others. Huge scales leave no direction.
     const auto requireNear = [&](bool isNear, std::string_view kind, int index, const std::string& name) {
         if (!isNear)
             CheckedElement(scene, kind, std::size_t(index), name)
@@ -252,7 +252,7 @@ void checkScene(const Scene& scene) {
     }
     checkRig(scene);
     checkPlaces(scene);
-    std::set<const LightPicture*> pictures; // shared by the lights that name them
+    std::set<const LightPicture*> pictures; // lights may share a texture
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         checkLight({scene, "light", i, scene.lights[i].name}, scene.lights[i]);
         const LightTexture& texture = scene.lights[i].texture;

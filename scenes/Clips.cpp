@@ -15,7 +15,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// By node, whether a clip that plays moves it, or one above it: parents stand before their children.
+/// By node: whether an active clip moves the node or an ancestor. Parents precede their children.
 std::vector<bool> movedNodes(const Scene& scene) {
     const Rig& rig = scene.rig;
     std::vector<bool> moves(scene.nodes.size());

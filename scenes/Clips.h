@@ -5,34 +5,34 @@
 
 #include "scenes/Scene.h"
 
-/// Which clips of a scene play, and what of it they move.
+/// Selection of a scene's active clips, and which parts of the scene they animate.
 namespace tessera::scenes {
 
 inline constexpr std::string_view kNoClip = "none";
 
-/// The clips of a name, else the one of that number from 0, or none (kNoClip). Throws InputError that lists the names.
+/// The clips of a name, else the clip of that number from 0, or none (kNoClip). Throws InputError that lists the names.
 std::vector<int> clipsCalled(const Rig& rig, const std::string& nameOrNumber);
 
-/// Lets the clips play that are called so, and puts numbers that others changed to rest. Throws as clipsCalled().
+/// Activates clips by name or number and restores what the previous ones changed. Throws as clipsCalled().
 void playClip(Scene& scene, const std::string& nameOrNumber);
 
-/// "clip 0 'Walk' (of 0 to 2), 1.04 s", numbered as playClip() takes it; empty where the scene has no clips.
+/// The active clips, "clip 0 'Walk' (of 0 to 2), 1.04 s", by number as in playClip(); empty if the scene has no clips.
 std::string clipText(const Scene& scene);
 
-/// Whether any clip is chosen.
+/// Whether any clip is active.
 bool isPlaying(const Scene& scene);
 
-/// When the last key of the clips that play is; they stand still from then on. 0 where none plays.
+/// Time of the last key of the active clips, which stand still from then on; 0 without active clips.
 double playingSeconds(const Rig& rig);
 
-/// What the clips that play change of what a renderer keeps from picture to picture. Lights and cameras it does not.
+/// Which parts of the scene data that renderers cache are animated by active clips. Lights and cameras are not cached.
 struct MovingParts {
-    bool geometry = false;  ///< transforms of nodes that show meshes, joints or weights of morph targets
-    bool materials = false; ///< numbers of materials or of their textures' places
+    bool geometry = false;  ///< transforms of nodes with meshes, joints, or morph weights
+    bool materials = false; ///< material factors or texture transforms
 };
 MovingParts movingParts(const Scene& scene);
 
-/// Whether a clip that plays moves a camera.
+/// Whether an active clip moves a camera.
 bool movesCamera(const Scene& scene, int camera);
 
 } // namespace tessera::scenes

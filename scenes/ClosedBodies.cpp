@@ -12,9 +12,9 @@ namespace {
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 using Seams = ClosedMeshes::Seams;
 
-/// Edges that are passed one way alone.
+/// Finds the edges that are traversed in one direction only.
 Seams seamsOf(const std::vector<Edge>& passed) {
-    // The two ways of an edge lie side by side.
+    // Sorts the two directions of an edge next to each other.
     const auto sorted = [](Edge edge) {
         const auto [low, high] = std::minmax(edge.first, edge.second);
         return std::tuple(low, high, edge.first > edge.second);
@@ -46,7 +46,7 @@ Seams seamsOf(const Mesh& mesh) {
     return seamsOf(passed);
 }
 
-/// How far apart vertices at one position may lie, by rounding: the two sides of a seam differ slightly.
+/// Welding tolerance: positions on the two sides of a seam differ by rounding.
 float weldedMetres(const Mesh& mesh) {
     if (mesh.positionsOS.empty()) return 0.0f;
     glm::vec3 low = mesh.positionsOS[0], high = low;
@@ -66,7 +66,7 @@ void weld(std::vector<Edge>& edges, const Mesh& mesh) {
     for (const auto& [from, to] : edges) vertices.insert(vertices.end(), {from, to});
     std::ranges::sort(vertices);
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    // Sorted along a direction that no row of vertices stands across, those at one position are neighbours.
+    // Sorted along a generic direction, not perpendicular to rows of vertices, coincident vertices are neighbours.
     const glm::dvec3 direction(0.726, 0.548, 0.4137);
     const auto along = [&](std::uint32_t vertex) { return glm::dot(direction, position(vertex)); };
     std::vector<std::uint32_t> sorted = vertices;

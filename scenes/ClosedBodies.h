@@ -8,22 +8,22 @@
 
 namespace tessera::scenes {
 
-/// Whether a mesh has an inside: once the vertices of its seams are welded, each edge belongs to two triangles that
-/// pass it in opposite directions, and the faces enclose a volume that they face away from.
+/// Whether a mesh is closed: after welding its seams, each edge belongs to two triangles that traverse it in opposite
+/// directions, and the faces enclose a volume, facing outwards.
 bool isClosed(const Mesh& mesh);
 
-/// Which meshes of a scene are closed. Triangles are read once per mesh; moved vertices cost their seams and the
-/// volume.
+/// Caches which meshes of a scene are closed. The topology is read once per mesh; after vertices move, only seams and
+/// volume are checked again.
 class ClosedMeshes {
 public:
     bool isClosed(const Scene& scene, std::size_t mesh);
-    /// Forgets all but the triangles, which must stay as they are.
+    /// Discards everything except the topology, which must stay the same.
     void verticesMoved();
 
-    /// Edges that triangles with these indices pass only one way, as if vertices at one position were different.
+    /// Edges of the index buffer that are traversed in one direction only, before coincident vertices are welded.
     struct Seams {
         std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-        bool isManifold = true; ///< no edge is passed twice the same way
+        bool isManifold = true; ///< no edge is traversed twice in the same direction
     };
 
 private:
@@ -34,7 +34,7 @@ private:
     std::vector<Known> known_; ///< by mesh
 };
 
-/// Finds the transmissive materials with a body whose drawn meshes are all closed.
+/// By material: whether it is transmissive with a body (hasBody()) and all meshes drawn with it are closed.
 std::vector<bool> closedBodies(const Scene& scene, ClosedMeshes& meshes);
 bool hasClosedBodies(const Scene& scene, ClosedMeshes& meshes);
 

@@ -7,8 +7,8 @@
 
 namespace tessera::scenes {
 
-/// Calls `use` with every vertex that a triangle uses, three of a triangle after one another: anticlockwise from the
-/// front, also where a node mirrors its mesh.
+/// Calls `use` with the corners of every triangle, one after another: counterclockwise seen from the front, also if a
+/// node mirrors its mesh.
 template <typename Use>
 void forEachCornerWS(const Scene& scene, const Use& use) {
     const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);

@@ -18,8 +18,8 @@
 namespace tessera::scenes {
 namespace {
 
-/// Near plane as a share of the bounds' radius: small enough to walk close to things; depth is reversed and in floating
-/// point, so a small near plane costs no precision.
+/// Near plane as a fraction of the bounds' radius: small enough to walk close to things. Depth is reversed and in
+/// floating point, so a small near plane costs no precision.
 constexpr double kNearShare = 1e-3;
 constexpr const char* kDefaultEnvironment = "studio";
 
@@ -33,8 +33,8 @@ const Camera& viewedCamera(const Scene& scene) {
     return scene.cameras[wish ? cameraCalled(scene, *wish).value_or(0) : 0];
 }
 
-/// The turn of a built-in studio that stands around the scene's camera as around that of a scene without one, which
-/// looks along longitude -45 degrees.
+/// Rotation of a built-in studio around the scene's camera, matching its place around a default camera, which looks
+/// along longitude -45 degrees.
 float degreesAroundCamera(const Scene& scene) {
     const glm::dvec3 forwardWS = -glm::dvec3(viewedCamera(scene).worldFromCamera[2]);
     constexpr double kLevel = 1e-6; // a camera that looks straight up or down has no heading
@@ -43,7 +43,7 @@ float degreesAroundCamera(const Scene& scene) {
     return float(std::remainder(-45.0 - longitude, 360.0));
 }
 
-/// Of the size that the scene's options ask for, else that of most screens.
+/// Aspect of the size requested by the scene's options, else of most screens.
 double aspectWished(const Scene& scene) {
     const auto wish = scene.options.wishes.find("size");
     if (wish != scene.options.wishes.end())
@@ -52,15 +52,15 @@ double aspectWished(const Scene& scene) {
     return 16.0 / 9.0;
 }
 
-/// Whether light changes nothing that is drawn. Emission does not count: most models that glow do so in few places,
-/// and are black elsewhere without light.
+/// Whether all materials in use are unlit. Emission does not count: most emissive models glow in few places and are
+/// black elsewhere without light.
 bool isAllUnlit(const Scene& scene) {
     const std::vector<const Material*> materials = materialsInUse(scene);
     return !materials.empty() && std::all_of(materials.begin(), materials.end(),
                                              [](const Material* material) { return !infoOf(material->model).isLit; });
 }
 
-/// False where a file asks for something else.
+/// Sets an option that the scene's file does not request; returns whether it was set.
 bool supplyWish(Scene& scene, const char* key, Wish value) {
     const bool isSupplied = scene.options.wishes.try_emplace(key, std::move(value)).second;
     if (isSupplied) scene.supplied.wishes.insert(key);

@@ -5,7 +5,7 @@
 
 #include "scenes/Scene.h"
 
-/// What a scene is given where its author left it out, so that everything loaded can be drawn and seen.
+/// Defaults for what a scene's author left out, so that everything loaded is visible.
 namespace tessera::scenes {
 
 class LoadLedger;
@@ -13,54 +13,52 @@ class LoadLedger;
 /// Name of a supplied camera.
 inline constexpr const char* kDefaultName = "default";
 
-/// A scene without a camera gets one of 45 degrees that sees all of it (framingOf()) in a picture of an aspect, width
-/// over height, else of that which its options ask for, else of 16:9; one that surrounds its middle is seen from inside
-/// (framingInside()). Its near plane does not depend on the aspect.
-/// Throws InputError when the bounds are too large to be numbers.
+/// Adds a camera with a vertical field of view of 45 degrees to a scene without one. It fits the whole scene
+/// (framingOf()) into `aspect` (width over height), else into the aspect of the scene's options, else into 16:9. Scenes
+/// that surround their middle are viewed from inside (framingInside()). The near plane does not depend on the aspect.
 void addDefaultCamera(Scene& scene, std::optional<double> aspect = {});
 
-/// Takes away the scene's own cameras and its wish for one of them, so that addDefaultCamera() gives it one in their
-/// place.
+/// Removes the scene's cameras and its choice of one, so that addDefaultCamera() replaces them.
 void leaveOutCameras(Scene& scene);
 
-/// A scene without lights and environment gets the built-in studio with a blurred backdrop, unless every material in
-/// use is unlit. It is turned to stand around the scene's camera (the one its options name, else the first) as around
+/// Adds the built-in studio with a blurred backdrop to a scene without lights and environment, unless every material in
+/// use is unlit. The studio is rotated around the scene's camera (the one its options name, else the first) as around
 /// that of addDefaultCamera().
 void addDefaultLight(Scene& scene, LoadLedger& ledger);
 
-/// A model with lights of its own gets that studio too: metals and glass show what is around them. Its light is a
-/// quarter of its own lights', or what these lack of a bright picture. Called after addDefaultExposure().
+/// Adds that studio to a model with its own lights too, since metals and glass need something to reflect. It gives a
+/// quarter of the luminance of the model's lights, or what they lack for a bright image if that is more. Call after
+/// addDefaultExposure().
 void addFillLight(Scene& scene, LoadLedger& ledger);
 
-/// What is kept of a scene's own environment where another map takes its place.
+/// A scene's original environment, kept while another map replaces it.
 struct OwnEnvironment {
-    std::string source;         ///< as Environment::source; empty: there is none of its own, or one was supplied
-    EnvironmentView view;       ///< how it lies and shines
-    float studioDegrees = 0.0f; ///< turn of a built-in studio where there is none
+    std::string source;         ///< as Environment::source; empty: the scene has none, or a supplied one
+    EnvironmentView view;       ///< its rotation and intensity
+    float studioDegrees = 0.0f; ///< rotation of a built-in studio if the scene has no environment
 };
 OwnEnvironment ownEnvironmentOf(const Scene& scene);
 
-/// The turn of a built-in studio that is chosen for a scene without an environment: around a supplied camera it stands
-/// as one that addDefaultLight() gives; else 0.
+/// Rotation of a built-in studio chosen for a scene without an environment: with a supplied camera that of
+/// addDefaultLight(), else 0.
 float chosenStudioDegrees(const Scene& scene);
 
-/// Turns a map that was chosen in the place of a scene's own environment as that is turned. The scene's own map, chosen
-/// again, is as bright as before too. Where there was none of its own, a built-in studio gets the turn above.
+/// Gives a map that replaces a scene's environment the rotation of the original. The scene's own map, chosen again,
+/// also gets its intensity back. If the scene had none, a built-in studio gets OwnEnvironment::studioDegrees.
 void layAs(const OwnEnvironment& own, Environment& chosen);
 
-/// A model that is lit by lights of its own alone gets the exposure that fits what its camera sees, where that is
-/// needed (Exposure.h): its format has none, and what writes it may count in any unit.
+/// Sets the exposure of a model with only its own lights to fit its camera's view, if needed (Exposure.h): model
+/// formats store no exposure, and exporters may use any unit.
 void addDefaultExposure(Scene& scene);
 
-/// A lit model gets the tone map khronos_neutral: its format asks for none, and highlights would burn out. Colours of a
-/// model that is unlit throughout are shown as they are.
+/// Selects the tone map khronos_neutral for a lit model: its format stores none, and highlights would clip. Colours of
+/// a fully unlit model are displayed as they are.
 void addDefaultToneMap(Scene& scene);
 
-/// What chooses others than those that a scene was given: options of the command line, or the viewer's panels.
+/// Where users change the supplied defaults: options of the command line, or the viewer's panels.
 enum class Advice : std::uint8_t { Options, Panels };
 
-/// One line for people: which camera, light and exposure the scene was given, and what chooses others. Empty where it
-/// was given none.
+/// Describes in one line the camera, light and exposure that were supplied, and how to change them; empty if none were.
 std::string suppliedText(const Scene& scene, Advice advice = Advice::Options);
 
 } // namespace tessera::scenes

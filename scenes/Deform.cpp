@@ -14,7 +14,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// A target that counts at all.
+/// A morph target with a weight other than 0.
 struct Morph {
     const MorphTarget* target;
     double weight;
@@ -30,7 +30,7 @@ Wide morphed(const Vector& rest, const std::vector<Morph>& morphs, std::size_t v
     return sum;
 }
 
-/// The mean of the joints' matrices by a vertex's weights, which need not sum to 1.
+/// Weighted mean of a vertex's joint matrices; the weights need not sum to 1.
 glm::dmat4x3 blended(const Shape& shape, const VertexMatrices& matrices, std::size_t vertex) {
     glm::dmat4x3 sum(0.0);
     double weights = 0.0;
@@ -43,16 +43,16 @@ glm::dmat4x3 blended(const Shape& shape, const VertexMatrices& matrices, std::si
     return weights > 0.0 ? sum / weights : matrices.ofOwn;
 }
 
-/// -1 where a matrix mirrors, 0 where it flattens.
+/// Sign of the determinant: -1 for mirroring, 0 for singular matrices.
 double sideOf(const glm::dmat4x3& matrix) {
     const double determinant = glm::determinant(glm::dmat3(matrix));
     return determinant < 0.0 ? -1.0 : determinant > 0.0 ? 1.0 : 0.0;
 }
 
-/// Whether more vertices are mirrored than not, each by what it follows.
+/// Whether the matrices mirror most vertices, weighted by joint influence.
 bool isMirrored(const Shape& shape, const VertexMatrices& matrices) {
     const double ofOwn = sideOf(matrices.ofOwn);
-    // Once for each joint, unless the skin has more joints than the mesh has influences.
+    // Evaluated once per joint, unless the skin has more joints than the mesh has influences.
     std::vector<double> ofJoints;
     if (matrices.fromBind.size() <= shape.joints.size()) {
         ofJoints.reserve(matrices.fromBind.size());
@@ -114,7 +114,7 @@ glm::dmat4 deform(const Shape& shape, std::span<const double> weights, const Ver
             tangent = glm::dmat3(moved) * tangent;
         }
         positions[v] = position;
-        // Where a singular matrix or targets leave no direction, that of rest is as good as any.
+        // If a singular matrix or morph targets leave no direction, the rest direction is used.
         mesh.normalsOS[v] = directionOf(normal).value_or(glm::dvec3(rest.normalsOS[v]));
         if (!rest.tangentsOS.empty())
             mesh.tangentsOS[v] =
@@ -149,7 +149,7 @@ glm::dmat4 deform(const Shape& shape, std::span<const double> weights, const Ver
 
     glm::dmat4 nodeFromMesh(1.0);
     nodeFromMesh[0][0] = mirror.x;
-    // `mirror` was applied to vertices around the origin, and their middle with them.
+    // The middle was mirrored with the vertices, so it is mirrored back.
     nodeFromMesh[3] = glm::dvec4(mirror * middle, 1.0);
     if (!isFinite) nodeFromMesh[3] = glm::dvec4(glm::dvec3(std::numeric_limits<double>::quiet_NaN()), 1.0);
     return nodeFromMesh;

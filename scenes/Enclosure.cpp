@@ -12,26 +12,26 @@
 namespace tessera::scenes {
 namespace {
 
-/// Each side of a room's bounds, at least: helmets and bottles may have an inside too, but nobody walks there.
+/// Minimum side of a room's bounds: smaller hollow things, such as helmets and bottles, are not entered.
 constexpr double kLeastRoomMetres = 2.0;
-constexpr double kEyeMetres = 1.7; ///< a person's, above the floor; no higher than the middle of the bounds
-/// Of all rays; those upwards may meet nothing, as a court is open to the sky.
+constexpr double kEyeMetres = 1.7; ///< eye height above the floor; at most the middle of the bounds
+/// Maximum fraction of rays that hit back faces. Upward rays may miss, since a courtyard is open to the sky.
 constexpr double kMostBacks = 0.1;
-/// Of those that go down, or no steeper up than by an angle of this sine.
+/// Minimum fraction of front-face hits among rays whose elevation has at most this sine.
 constexpr double kLeastFronts = 0.9, kLevel = 0.3;
-constexpr double kTowardsWall = 0.8; ///< of the way from the middle to the wall behind, where the eye stands
+constexpr double kTowardsWall = 0.8; ///< the eye, as a fraction of the way from the middle to the wall behind
 
 constexpr int kRays = 64;      ///< in all directions
 constexpr int kLevelRays = 32; ///< at the eye's height
 
 struct Ray {
     glm::dvec3 directionWS{0.0};
-    double metres = std::numeric_limits<double>::infinity(); ///< to what it meets first
+    double metres = std::numeric_limits<double>::infinity(); ///< distance to the first hit
     bool meetsBack = false;
     bool meetsFront() const { return std::isfinite(metres) && !meetsBack; }
 };
 
-/// Evenly over the sphere, along a spiral.
+/// Evenly distributed over the sphere, along a spiral.
 std::array<Ray, kRays> raysAround() {
     constexpr double kGoldenAngle = std::numbers::pi * (3.0 - 2.2360679774997896);
     std::array<Ray, kRays> rays;
@@ -51,8 +51,8 @@ std::array<Ray, kLevelRays> levelRays() {
     return rays;
 }
 
-/// Follows rays from one origin. A ray meets a triangle where it lies on one side of the three planes through the
-/// origin and an edge; which side tells the front, anticlockwise, from the back.
+/// Traces rays from one origin. A ray hits a triangle if it lies on the same side of the three planes through the
+/// origin and an edge; the side distinguishes the front, counterclockwise, from the back.
 template <std::size_t kCount>
 void follow(const Scene& scene, const glm::dvec3& originWS, std::array<Ray, kCount>& rays) {
     std::array<glm::dvec3, 3> corners;
@@ -64,7 +64,7 @@ void follow(const Scene& scene, const glm::dvec3& originWS, std::array<Ray, kCou
         const auto& [a, b, c] = corners;
         const glm::dvec3 ab = glm::cross(a, b), bc = glm::cross(b, c), ca = glm::cross(c, a);
         const glm::dvec3 normal = ab + bc + ca;
-        const double volume = glm::dot(a, bc); // the sign of it is the side that faces the origin
+        const double volume = glm::dot(a, bc); // its sign: the side that faces the origin
         if (volume == 0.0) return;
         for (Ray& ray : rays) {
             const auto isBeside = [&](const glm::dvec3& plane) {
@@ -88,8 +88,8 @@ double shareOf(const std::array<Ray, kCount>& rays, const Is& is, const Holds& h
     return double(some) / double(all);
 }
 
-/// Whether a few rays down and to the sides let a room be likely: of most things, however many triangles they have,
-/// they meet backs or nothing, and no more rays need to be followed.
+/// Whether a few rays down and to the sides suggest a room: for most objects they hit back faces or nothing, and the
+/// full test is skipped.
 bool mayBeEnclosed(const Scene& scene, const glm::dvec3& originWS) {
     constexpr std::size_t kProbes = 8, kLeastFrontProbes = 6;
     const std::array<Ray, kRays> around = raysAround();
@@ -130,7 +130,7 @@ std::optional<Framing> framingInside(const Scene& scene) {
     const auto lengthOf = [&](std::size_t i) { return level[i].metres + behind(i).metres; };
     for (std::size_t i = 0; i < kLevelRays; ++i) {
         if (!std::isfinite(lengthOf(i))) continue;
-        // Of the two ends of a way that with the more room behind the middle.
+        // A line's two directions are ranked by the space behind the middle.
         const auto rank = [&](std::size_t ray) { return std::pair(lengthOf(ray), behind(ray).metres); };
         if (!longest || rank(i) > rank(*longest)) longest = i;
     }

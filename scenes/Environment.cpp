@@ -27,11 +27,11 @@ constexpr std::array kEnvironments = {
     BuiltinEnvironment{"sky", "a clear sky with its sun, over plain ground", builtin::makeSky},
 };
 
-/// What a built-in map takes: its texels, and what it is computed from.
+/// Memory of a built-in map: its texels and intermediate tables.
 constexpr std::uint64_t kBuiltinBytes =
     std::uint64_t(builtin::kMapWidth) * std::uint64_t(builtin::kMapHeight) * sizeof(glm::vec4) + (2u << 20);
 
-/// Of Rgba32Float, whose numbers are not below 0.
+/// `map` is Rgba32Float without negative numbers.
 bool isBlack(const Image& map) {
     for (std::size_t offset = 0; offset < map.texels.size(); offset += sizeof(glm::vec4)) {
         glm::vec3 texel;
@@ -49,7 +49,7 @@ void warnOfMap(const RadianceMap& map, std::vector<std::string>& warnings) {
     warnOfReplaced(who, map.replaced, warnings);
     const Image& image = map.image;
     if (isBlack(image)) warnings.push_back(who + " is black everywhere and gives no light");
-    // A map of one texel is the same everywhere.
+    // A map of one texel is uniform.
     if (image.width != 2 * image.height && image.width * image.height > 1)
         warnings.push_back(fmt::format("{} is {}x{} texels, not twice as wide as high, and is stretched around the "
                                        "scene",
@@ -60,7 +60,7 @@ std::uint64_t bytesAsFloat(int width, int height) {
     return std::uint64_t(width) * std::uint64_t(height) * texelBytes(TexelFormat::Rgba32Float);
 }
 
-/// Called when no number is left that would spread.
+/// Called after invalid numbers are replaced, which averaging would spread.
 void averageIfLarge(Image& map, LoadLedger& ledger, std::vector<std::string>& warnings) {
     const int width = std::min(map.width, kMostMapWidth), height = std::min(map.height, kMostMapHeight);
     if (width == map.width && height == map.height) return;

@@ -10,61 +10,61 @@
 
 #include "scenes/Image.h"
 
-/// Light from everywhere: a picture of all directions around a scene, infinitely distant (docs/environment.md).
+/// Image-based lighting: a radiance map of all directions around a scene, infinitely distant (docs/environment.md).
 namespace tessera::scenes {
 
 class LoadLedger;
 
-/// Of a map times its intensity: as bright as lights are taken, and far from the end of fp32.
+/// Maximum of a map's radiance times its intensity: the same limit as for lights, far below the fp32 maximum.
 inline constexpr float kMostRadiance = 1e30f;
 
-/// Columns and rows of a map: those of a larger one are averaged when it is loaded. So many texels are 512 MiB of the
-/// GPU, and finer than the pixels of a picture of 1280 columns through a lens of 56 degrees.
+/// Maximum size of a map; larger ones are averaged when loaded. This size takes 512 MiB of GPU memory, and its texels
+/// are finer than the pixels of an image of 1280 columns with a field of view of 56 degrees.
 inline constexpr int kMostMapWidth = 8192, kMostMapHeight = 4096;
 
-/// The radiance of a direction is interpolated bilinearly between the centres of four texels, across the left and right
-/// edge alike; beyond the first and last row it is that row's.
+/// A radiance map in latitude and longitude. Lookups are bilinear between texel centres, wrap around at the left and
+/// right edge and clamp to the first and last row.
 struct Environment {
-    std::string source;           ///< "builtin:studio", or the absolute path of its file: a picture or a glTF model
-    Image map;                    ///< Rgba32Float, RGB 0 to kMostRadiance, in latitude and longitude
+    std::string source;           ///< "builtin:studio", or the absolute path of its file: an image or a glTF model
+    Image map;                    ///< Rgba32Float, RGB 0 to kMostRadiance
     float intensity = 1.0f;       ///< >= 0, multiplies the radiance, up to kMostRadiance
     float rotationDegrees = 0.0f; ///< about +Y, counter-clockwise seen from above
 };
 
-/// How a view turns and brightens an environment.
+/// Rotation and intensity that a view applies to an environment.
 struct EnvironmentView {
     float rotationDegrees = 0.0f; ///< added to the environment's own
     float intensity = 1.0f;       ///< multiplies the environment's own
     bool operator==(const EnvironmentView&) const = default;
 };
-/// The settings that say so, which are wishes of a scene (SceneOptions) too.
+/// Keys of the settings of EnvironmentView, which a scene's options (SceneOptions) may request too.
 inline constexpr std::array<std::string_view, 2> kEnvironmentViewKeys{"environmentRotation", "environmentIntensity"};
 
-/// An environment's own numbers.
+/// An environment's own rotation and intensity.
 inline EnvironmentView ownViewOf(const Environment& environment) {
     return {environment.rotationDegrees, environment.intensity};
 }
-/// What an environment's own numbers must be for a view that changes nothing to show it as this view does.
+/// Bakes a view into an environment's own values, so that a neutral view displays the result the same.
 EnvironmentView asSeen(const EnvironmentView& own, const EnvironmentView& view);
 
-/// Where a map holds a unit direction before it is turned: x from the left, y from the top, both 0..1. The middle looks
-/// along -Z, the top is +Y.
+/// Map coordinates of a unit direction in an unrotated map: x from the left, y from the top, both 0..1. The middle
+/// looks along -Z, the top is +Y.
 glm::dvec2 placeInMap(const glm::dvec3& direction);
 glm::dvec3 directionInMap(const glm::dvec2& place);
 
 struct BuiltinEnvironment {
     std::string_view name;
     std::string_view purpose;                                  ///< one line: what it is for
-    Image (*makeMap)(const std::function<void(double)>& told); ///< `told` as LoadLedger::tellEnvironment() takes it
+    Image (*makeMap)(const std::function<void(double)>& told); ///< progress callback, see LoadLedger::tellEnvironment()
 };
 std::span<const BuiltinEnvironment> builtinEnvironments();
 
-/// What is said of a map of more texels than are kept.
+/// Warning for a map with more texels than are kept.
 std::string averagedText(const std::string& name, int width, int height, int keptWidth, int keptHeight);
 
-/// A map from "builtin:NAME", a picture file, or a glTF model with an image-based light, whose intensity comes with it.
-/// Numbers that are no light are replaced, and a map of more than kMostMapWidth x kMostMapHeight texels is averaged to
-/// that; `warnings` tells both. Throws InputError that names the file and its fault, or the nearest names.
+/// Loads a map from "builtin:NAME", an image file, or a glTF model with an image-based light, including its intensity.
+/// Invalid numbers are replaced and maps above kMostMapWidth x kMostMapHeight texels averaged, both with a warning.
+/// Throws InputError that names the file and its fault, or the nearest names.
 Environment loadEnvironment(const std::string& source, LoadLedger& ledger, std::vector<std::string>& warnings);
 
 } // namespace tessera::scenes

@@ -15,15 +15,15 @@ namespace tessera::scenes {
 namespace {
 
 constexpr double kLeewayEV = 2.0;
-constexpr double kMostStops = 120.0; ///< of the option --exposure
-constexpr double kBelow = 0.9;       ///< share of what is seen that stays below an estimate
-/// Of a place and a light: what an estimate looks at in all.
+constexpr double kMostStops = 120.0; ///< range of the option --exposure
+constexpr double kBelow = 0.9;       ///< fraction of the visible area below an estimate
+/// Work limit of an estimate: number of pairs of a surface sample and a light.
 constexpr double kMostPairs = 5e5;
 
-/// About what a layer reflects of light from anywhere: a dielectric's highlight, and a sheen of colour 1.
+/// Approximate albedo of a dielectric's highlight, and of a sheen of colour 1.
 constexpr double kOfHighlight = 0.04, kOfSheen = 0.3;
 
-/// A channel of a texel, 0 to 1 where the format has whole numbers.
+/// A channel of a texel, 0 to 1 for integer formats.
 double channelOf(const Image& image, std::size_t at) {
     const auto read = [&]<typename T>(T) {
         T value;
@@ -41,11 +41,11 @@ double channelOf(const Image& image, std::size_t at) {
     return double(read(float()));
 }
 
-/// The mean of a texture, by some thousand of its texels.
+/// Mean colour of a texture, from a few thousand of its texels.
 glm::dvec3 meanColor(const Image& image, bool isSrgb) {
     constexpr std::size_t kMostTexels = 4096;
     const std::size_t count = std::size_t(image.width) * std::size_t(image.height);
-    // An odd step, so that it does not stay in a column.
+    // An odd step, which does not stay in one column.
     const std::size_t step = count <= kMostTexels ? 1 : count / kMostTexels | 1;
     const bool isEncoded = isSrgb && image.format != TexelFormat::Rgba32Float;
     glm::dvec3 sum(0.0);
@@ -58,7 +58,7 @@ glm::dvec3 meanColor(const Image& image, bool isSrgb) {
     return texels > 0.0 ? sum / texels : glm::dvec3(1.0);
 }
 
-/// What a surface with a material shows of an illuminance, and without any.
+/// The mean albedo and emitted luminance of a material.
 struct Shown {
     double albedo = 0.0, emission = 0.0;
 };
@@ -85,13 +85,13 @@ Shown shownOf(const Scene& scene, const Material& material, bool isMatte) {
     return shown;
 }
 
-/// A camera's picture: by what share of it a small surface is larger than another, in any unit.
+/// A camera's image: compares the image areas of small surfaces, in an arbitrary unit.
 class Picture {
 public:
     Picture(const Camera& camera, double aspect)
         : camera_(camera), cameraFromWorld_(glm::inverse(camera.worldFromCamera)), aspect_(aspect) {}
 
-    /// `areaWS` is the surface's area times its unit normal. 0 where it is not in the picture or shows its back.
+    /// `areaWS` is the surface's area times its unit normal. 0 outside the image or if seen from the back.
     double shareOf(const glm::dvec3& placeWS, const glm::dvec3& areaWS, bool isTwoSided) const {
         const glm::dvec3 place(cameraFromWorld_ * glm::dvec4(placeWS, 1.0));
         const bool isParallel = camera_.projection == Projection::Orthographic;
@@ -134,7 +134,7 @@ std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camer
     for (const Node& node : scene.nodes)
         for (const MeshInstance& instance : node.instances)
             triangles += double(scene.meshes[std::size_t(instance.mesh)].indices.size() / 3);
-    // Of a triangle the middle and three places halfway to its corners.
+    // Samples of a triangle: its middle and three points halfway to its corners.
     constexpr int kPlaces = 4;
     const double pairs = kPlaces * triangles * double(std::max(lights.size(), std::size_t(1)));
     const auto step = std::size_t(std::max(std::ceil(pairs / kMostPairs), 1.0));
@@ -142,7 +142,7 @@ std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camer
     std::vector<std::optional<Shown>> shown(scene.materials.size());
     const Picture picture(camera, aspect);
     const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
-    std::vector<std::pair<double, double>> seen; // luminances and their shares
+    std::vector<std::pair<double, double>> seen; // luminances and their image areas
     double shares = 0.0;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n)
         for (const MeshInstance& instance : scene.nodes[n].instances) {

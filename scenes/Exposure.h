@@ -3,21 +3,21 @@
 
 #include "scenes/Scene.h"
 
-/// How bright a scene is as its camera sees it, estimated before anything is drawn.
+/// Estimates the luminance of a camera's view before anything is rendered.
 namespace tessera::scenes {
 
-/// Of a picture that is bright and leaves highlights room.
+/// Luminance of a bright image with headroom for highlights.
 inline constexpr double kBrightLuminance = 0.4;
 
-/// About the luminance, before exposure, that nine tenths of the surfaces stay below which a camera sees in a picture
-/// of an aspect (width over height): of the mean of their textures, lit by the lights that are on, with nothing
-/// before them. All are matte, or of metals the less counts, the smoother they are, and of glass what it does not let
-/// through. Nothing
-/// where none is seen. Takes some milliseconds, however many triangles and lights there are.
+/// Estimates the 90th percentile of the luminance of visible surfaces, by image area and before exposure, for a camera
+/// and an aspect (width over height). Surfaces have the mean of their textures and are lit by the enabled lights
+/// without occlusion. All are matte, or if not `areMatte`, smooth metals count less than rough ones, and glass by its
+/// untransmitted part. Nothing if no surface is visible. Takes some milliseconds, however many triangles and lights
+/// there are.
 std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camera, double aspect, bool areMatte = true);
 
-/// Whole stops that bring such a luminance to kBrightLuminance; 0 where it is within two
-/// stops of that, as in most pictures, or nothing is lit.
+/// Whole stops that bring an estimated luminance to kBrightLuminance; 0 if it is within two stops of that, as in most
+/// images, or not lit.
 int fittingExposureEV(double luminance);
 
 } // namespace tessera::scenes

@@ -4,20 +4,20 @@
 #include <tuple>
 #include <type_traits>
 
-/// Members of a struct as a table, which everything that handles all of them goes through.
+/// Tables of struct members, used by all code that handles every member.
 namespace tessera::scenes {
 
 inline constexpr double kAnyNumber = std::numeric_limits<float>::max(); ///< as a bound: any finite number
 
-/// A member: its name, and for numbers their name in messages and their bounds (checkScene).
+/// A member: its name, and for numbers the name in messages and the bounds (checkScene).
 template <typename Owner, typename Member>
 struct Field {
     const char* name;
     Member Owner::*member;
-    const char* what = nullptr; ///< null: no bounds, or others than these
+    const char* what = nullptr; ///< name in messages; null: no bounds here
     double least = 0.0;         ///< of each component
     double most = 0.0;
-    const char* unit = ""; ///< of the bounds, as messages write it behind them
+    const char* unit = ""; ///< of the bounds, appended in messages
 };
 template <typename Owner, typename Member>
 Field(const char*, Member Owner::*) -> Field<Owner, Member>;
@@ -49,7 +49,7 @@ struct AnyValue {
     template <typename Type>
     operator Type() const;
 };
-/// How many members a struct has: how many values it can be made of.
+/// Number of members of an aggregate: the most values it can be initialised with.
 template <typename Struct, typename... Values>
 consteval std::size_t memberCount() {
     if constexpr (requires { Struct{Values{}..., AnyValue{}}; })

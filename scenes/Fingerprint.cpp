@@ -6,8 +6,8 @@
 namespace tessera::scenes {
 namespace {
 
-/// Takes fields one by one. Every struct is taken apart by a structured binding, so that one with a new field does not
-/// compile until the field is here; kMaterialFields and kLightFields are held to theirs in the same way.
+/// Hashes a scene field by field. Structured bindings list every member, so that a struct with a new field does not
+/// compile until it is hashed here; static_asserts do the same for kMaterialFields and kLightFields.
 class Hash {
 public:
     std::uint64_t value() const { return hash_; }
@@ -19,7 +19,7 @@ public:
     template <typename Number>
     requires std::is_integral_v<Number> || std::is_enum_v<Number>
     void add(Number number) {
-        // The lowest byte first, whatever the machine's order.
+        // Little-endian on every machine.
         const auto bits = static_cast<std::uint64_t>(number);
         for (unsigned byte = 0; byte < sizeof(Number); ++byte) add(std::byte(bits >> (8 * byte) & 0xffu));
     }
@@ -109,11 +109,11 @@ public:
         for (const glm::vec2& corner : corners.all()) add(corner);
     }
     void add(const LightTexture& texture) {
-        if (!texture) return; // others keep the fingerprint that they had
+        if (!texture) return; // absent: the fingerprint stays as before
         const auto& [source, map, most] = *texture;
         add(map);
-        static_cast<void>(source); // where it comes from, not what it is
-        static_cast<void>(most);   // the texels say
+        static_cast<void>(source); // origin, not content
+        static_cast<void>(most);   // derived from the texels
     }
     void add(const Light& light) {
         visitFields(kLightFields, [&](const auto& field) { add(light.*field.member); });
@@ -125,7 +125,7 @@ public:
     void add(const SceneOptions& options) {
         const auto& [camera, clip, defaultLight, wishes] = options;
         addAll(camera, defaultLight, std::uint64_t(wishes.size()));
-        static_cast<void>(clip); // the rig tells which play
+        static_cast<void>(clip); // the rig lists the active clips
         for (const auto& [key, wish] : wishes) {
             addAll(key, std::uint64_t(wish.index()));
             std::visit([this](const auto& value) { add(value); }, wish);
@@ -134,7 +134,7 @@ public:
     void add(const Environment& environment) {
         const auto& [source, map, intensity, rotationDegrees] = environment;
         addAll(map, intensity, rotationDegrees);
-        static_cast<void>(source); // where it comes from, not what it is
+        static_cast<void>(source); // origin, not content
     }
     void add(const HookParameter& parameter) {
         const auto& [name, value, least, most] = parameter;
@@ -143,7 +143,7 @@ public:
     void add(const Hook& hook) {
         const auto& [file, contentHash, materials, parameters, changesSurfaces, movesVertices, mayMoveMetres] = hook;
         addAll(contentHash, materials, parameters, changesSurfaces, movesVertices, mayMoveMetres);
-        static_cast<void>(file); // where it comes from, not what it is
+        static_cast<void>(file); // origin, not content
     }
     void add(const AnimationSampler& sampler) {
         const auto& [interpolation, width, timesSeconds, values] = sampler;
@@ -193,9 +193,9 @@ public:
         const auto& [name, images, materials, meshes, nodes, lights, cameras, rig, environment, hook, background,
                      options, supplied, variants, notes, warnings] = scene;
         addAll(name, images, materials, meshes, nodes, lights, cameras, rig, environment, background, options);
-        if (hook) add(*hook);        // others keep the fingerprint that they had
-        static_cast<void>(supplied); // tells of the camera and the environment, which are content themselves
-        for (const auto* words : {&variants, &notes, &warnings}) static_cast<void>(words); // about the file, no content
+        if (hook) add(*hook);        // absent: the fingerprint stays as before
+        static_cast<void>(supplied); // describes the camera and the environment, which are hashed
+        for (const auto* words : {&variants, &notes, &warnings}) static_cast<void>(words); // about the file only
     }
 
 private:
@@ -204,7 +204,7 @@ private:
         (add(fields), ...);
     }
 
-    std::uint64_t hash_ = 14695981039346656037ull; ///< the offset basis
+    std::uint64_t hash_ = 14695981039346656037ull; ///< FNV-1a offset basis
 };
 
 } // namespace

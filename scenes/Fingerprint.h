@@ -7,13 +7,13 @@
 
 namespace tessera::scenes {
 
-/// A number that tells two scenes apart: FNV-1a of 64 bits over all that a picture can depend on, which is everything
-/// but the warnings. Numbers count by their bits, lists by their lengths too, and nothing of how structs lie in memory
-/// enters, so that the same scene has the same number in every build. Texels count as they are stored.
-/// Source: Fowler, Noll, Vo, "The FNV Non-Cryptographic Hash Algorithm" (IETF draft-eastlake-fnv).
+/// Hashes everything that an image of a scene can depend on, with 64-bit FNV-1a; file names, notes and warnings are
+/// excluded. Numbers are hashed by their bits, lists with their lengths, texels as stored. Struct layout does not
+/// matter, so that a scene has the same fingerprint in every build. Source: Fowler, Noll, Vo, "The FNV
+/// Non-Cryptographic Hash Algorithm" (IETF draft-eastlake-fnv).
 std::uint64_t fingerprint(const Scene& scene);
 
-/// The same hash of bytes alone: tells two files or texts apart.
+/// The same hash of plain bytes, to distinguish files or texts.
 std::uint64_t fingerprint(std::span<const std::byte> bytes);
 
 } // namespace tessera::scenes

@@ -15,25 +15,25 @@
 namespace tessera::scenes {
 namespace {
 
-constexpr double kMargin = 1.05; ///< so that nothing touches the picture's edge
-/// Flat is what is thinner than this share of its second-largest side: seen from aside it would be a line.
+constexpr double kMargin = 1.05; ///< keeps the scene off the image's edge
+/// Scenes thinner than this fraction of their second-largest side are flat: viewed from the side they would be a line.
 constexpr double kFlatShare = 0.05;
-/// What has less depth than this share of its larger side is seen from the front, 7 degrees from above: labels of
-/// panels can be read. Measured: panels of models that test renderers 0.08 to 0.34, real objects 0.52 and more.
+/// Scenes with less depth than this fraction of their larger side are viewed from the front, 7 degrees from above, to
+/// make labels of panels legible. Measured: panels of renderer test models 0.08 to 0.34, real objects 0.52 and more.
 constexpr double kPanelShare = 0.35;
-/// What is thin along the view must not come to lie in the eye: this share of the bounds' diagonal stays free.
+/// Minimum distance from the eye to the scene, as a fraction of the bounds' diagonal, for scenes thin along the view.
 constexpr double kLeastShare = 0.05;
 
-/// Calls `look` for the scene at each of some times over the length of the clips that play, else once as it is.
+/// Calls `look` for the scene in sampled poses over the length of the active clips, else once as it is.
 template <typename Look>
 void overClips(Scene& scene, const Look& look) {
-    constexpr int kSteps = 16; // a turn of 360 degrees is seen every 22.5
+    constexpr int kSteps = 16; // samples a turn of 360 degrees every 22.5
     const double seconds = playingSeconds(scene.rig);
     if (!(seconds > 0.0)) return look(scene);
     for (int step = 0; step <= kSteps; ++step) {
         try {
             poseScene(scene, seconds * step / kSteps);
-        } catch (const InputError&) { // who shows that time is told
+        } catch (const InputError&) { // reported when that time is displayed
             continue;
         }
         look(scene);
@@ -41,7 +41,7 @@ void overClips(Scene& scene, const Look& look) {
     poseScene(scene, 0.0);
 }
 
-/// Along which axis the bounds are flat, or -1.
+/// The axis along which the bounds are flat, or -1.
 int flatAxis(const glm::dvec3& sides) {
     int thin = 0;
     for (int axis = 1; axis < 3; ++axis)
@@ -50,13 +50,13 @@ int flatAxis(const glm::dvec3& sides) {
     return second > 0.0 && sides[thin] < kFlatShare * second ? thin : -1;
 }
 
-/// From the scene to the eye.
+/// Direction from the scene to the eye.
 glm::dvec3 towardsEyeWS(const Scene& scene, const glm::dvec3& sides) {
     const int axis = flatAxis(sides);
     if (axis < 0 && sides.z > 0.0 && sides.z < kPanelShare * std::max(sides.x, sides.y))
         return glm::normalize(glm::dvec3(0.0, 0.13, 1.0));
     if (axis < 0) return glm::normalize(glm::dvec3(1.0, 0.7, 1.0));
-    double facing = 0.0; // twice the area that is turned to the positive side, less that to the negative
+    double facing = 0.0; // twice the area facing the positive side minus that facing the negative
     glm::dvec3 corners[3];
     int corner = 0;
     forEachCornerWS(scene, [&](const glm::dvec3& positionWS) {
@@ -69,10 +69,10 @@ glm::dvec3 towardsEyeWS(const Scene& scene, const glm::dvec3& sides) {
     return back;
 }
 
-/// What bounds an eye that looks along an axis: for each side of the picture the vertex that reaches farthest over it.
+/// Constraints on an eye that looks along an axis: for each side of the image the most extreme vertex.
 struct Fit {
-    double right, up;         ///< slopes of the picture's sides
-    double most[2][2];        ///< of +-x - right * depth, and of +-y - up * depth
+    double right, up;         ///< slopes of the frustum's sides
+    double most[2][2];        ///< maxima of +-x - right * depth and of +-y - up * depth
     double nearest, farthest; ///< depths
 
     Fit(double rightSlope, double upSlope) : right(rightSlope), up(upSlope) {
@@ -82,7 +82,7 @@ struct Fit {
         farthest = kNothing;
     }
 
-    /// A point along the camera's right, its up and ahead.
+    /// Adds a point in camera axes: right, up, ahead.
     void add(const glm::dvec3& point) {
         for (int sign = 0; sign < 2; ++sign) {
             most[0][sign] = std::max(most[0][sign], (sign == 0 ? point.x : -point.x) - right * point.z);
@@ -92,8 +92,8 @@ struct Fit {
         farthest = std::max(farthest, point.z);
     }
 
-    /// An eye e sees a point p where |p.x - e.x| <= right (p.z - e.z), and y alike: each side of the picture is a plane
-    /// that must not cut the points off. The picture's middle is put between those that reach farthest.
+    /// An eye e sees a point p if |p.x - e.x| <= right (p.z - e.z), and likewise for y: each side of the frustum is a
+    /// plane that must not clip points. The image is centred between the most extreme ones.
     glm::dvec3 eye(double leastDepth) const {
         const double depth = std::min({-(most[0][0] + most[0][1]) / (2.0 * right),
                                        -(most[1][0] + most[1][1]) / (2.0 * up), nearest - leastDepth});

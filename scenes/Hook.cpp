@@ -15,10 +15,10 @@
 namespace tessera::scenes {
 namespace {
 
-/// What no hook may have outside of comments, and why.
+/// Words that hooks must not contain outside of comments, and the reason.
 enum class Refused { Word, Beginning, Directive };
 struct RefusedWord {
-    Refused what; ///< the word, all words that begin so, or the word behind a #
+    Refused what; ///< the exact word, a prefix, or a directive behind a #
     std::string_view word, why;
 };
 constexpr std::string_view kDiffersBetweenPixels = "differences between pixels differ between passes; take it out";
@@ -37,7 +37,7 @@ constexpr RefusedWord kRefusedWords[] = {
     {Refused::Word, "uniform", "a hook binds nothing; declare numbers as parameters of the scene"},
     {Refused::Word, "buffer", "a hook binds nothing; take it out"},
     {Refused::Word, "shared", "points share no memory; take it out"},
-    // With Fine and Coarse behind them as well.
+    // Prefixes: variants end in Fine or Coarse.
     {Refused::Beginning, "dFdx", kDiffersBetweenPixels},
     {Refused::Beginning, "dFdy", kDiffersBetweenPixels},
     {Refused::Beginning, "fwidth", kDiffersBetweenPixels},
@@ -68,15 +68,14 @@ bool isDigit(char c) {
 bool isOfWord(char c) {
     return isLetter(c) || isDigit(c) || c == '_';
 }
-/// What of a word stands from a place on; empty: another letter does.
+/// The word characters from a position on; empty if there are none.
 std::string_view wordAt(std::string_view code, std::size_t begin) {
     std::size_t end = begin;
     while (end < code.size() && isOfWord(code[end])) ++end;
     return code.substr(begin, end - begin);
 }
 
-/// The text with spaces for its comments; lines stay where they are. `open` receives where a comment begins that does
-/// not end.
+/// Replaces comments by spaces; line breaks stay. `open` receives the position of an unterminated comment.
 std::string withoutComments(std::string_view text, std::optional<std::size_t>* open = nullptr) {
     std::string code(text);
     enum class In { Code, Line, Block } in = In::Code;
@@ -104,10 +103,10 @@ std::string withoutComments(std::string_view text, std::optional<std::size_t>* o
     return code;
 }
 
-/// Separates the member names of structures, which get no prefix, from their types and array sizes.
+/// Distinguishes the member names of structures, which get no prefix, from their types and array sizes.
 class Members {
 public:
-    /// Whether a token names a member. All tokens have to be given in order.
+    /// Whether a token is a member's name. Must be called for all tokens in order.
     bool isMember(const HookToken& token) {
         if (token.is("struct")) state_ = State::Named;
         if (state_ == State::Outside) return false;
@@ -173,13 +172,13 @@ std::optional<HookFault> hookFault(std::string_view text) {
         return HookFault{1, fmt::format("it has {} bytes; a hook has at most {}", text.size(), kMostHookBytes)};
     std::optional<std::size_t> openComment;
     const std::string code = withoutComments(text, &openComment);
-    std::vector<std::size_t> conditionals; // lines of those that are open
+    std::vector<std::size_t> conditionals; // lines of open #if directives
     std::size_t line = 1;
-    char before = '\n'; // the last that is no blank
+    char before = '\n'; // the last non-blank character
     for (std::size_t i = 0; i < code.size();) {
         const char c = code[i];
         if (c == '\0') return HookFault{line, "a zero byte is no text; give a file of GLSL"};
-        // Within comments as well, whose ends they may hide.
+        // Within comments as well, since these may hide a comment's end.
         const std::string_view rest = text.substr(i);
         if (rest.starts_with('\r') && !rest.starts_with("\r\n"))
             return HookFault{line, "a carriage return alone ends a line for some drivers only; save the file with the "
@@ -211,7 +210,7 @@ std::optional<HookFault> hookFault(std::string_view text) {
         before = word.back();
         i += word.size();
     }
-    // Else the rest of the programs that the text is put into would be part of it.
+    // Otherwise the comment would swallow the rest of the shader that includes the text.
     if (openComment)
         return HookFault{std::size_t(1 + std::ranges::count(text.substr(0, *openComment), '\n')),
                          "the comment that begins here has no end; write */"};

@@ -8,24 +8,24 @@
 
 #include <glm/glm.hpp>
 
-/// GLSL of a scene's own that changes its surfaces and moves its vertices (docs/hooks.md).
+/// Hooks: a scene's own GLSL, which changes surfaces and moves vertices (docs/hooks.md).
 namespace tessera::scenes {
 
 inline constexpr std::size_t kMostHookParameters = 15;
-inline constexpr std::size_t kMostHookBytes = std::size_t(1) << 20; ///< of its file
+inline constexpr std::size_t kMostHookBytes = std::size_t(1) << 20; ///< size of a hook's file
 
 /// A number that a hook reads as hook.<name>.
 struct HookParameter {
     std::string name; ///< isHookParameterName()
     float value = 0.0f;
-    float least = 0.0f; ///< the value lies between the two
+    float least = 0.0f; ///< bounds of the value: least to most
     float most = 1.0f;
     bool operator==(const HookParameter&) const = default;
 
     bool allows(float other) const { return other >= least && other <= most; } // false for NaN
 };
 
-/// Another value for the parameter of that name.
+/// A new value for the parameter of that name.
 struct HookValue {
     std::string name;
     float value = 0.0f;
@@ -34,61 +34,61 @@ struct HookValue {
 
 struct Hook {
     std::string file;              ///< absolute
-    std::uint64_t contentHash = 0; ///< of the file's text as it was loaded
-    std::vector<int> materials;    ///< those whose surfaces it changes, ascending
+    std::uint64_t contentHash = 0; ///< hash of the file's text as loaded
+    std::vector<int> materials;    ///< indices of the materials that it changes, ascending
     std::vector<HookParameter> parameters;
-    bool changesSurfaces = true; ///< it has hookSurface()
-    bool movesVertices = false;  ///< it has hookVertex(), and the scene's meshes are as it found them
-    double mayMoveMetres = 0.0;  ///< as far as it moves a vertex at most, in the mesh's own space
+    bool changesSurfaces = true; ///< defines hookSurface()
+    bool movesVertices = false;  ///< defines hookVertex(); the scene's meshes hold the unmoved vertices
+    double mayMoveMetres = 0.0;  ///< maximum distance that it moves a vertex, in object space
     bool operator==(const Hook&) const = default;
 
     bool changes(std::size_t material) const;
 };
 
-/// The numbers that hookSurface() changes (shaders/lib/material/hook_interface.glsl).
+/// The surface values that hookSurface() changes (shaders/lib/material/hook_interface.glsl).
 struct HookedSurface {
     glm::vec3 color{0.0f};    ///< linear
     glm::vec3 emission{0.0f}; ///< radiance
-    float alpha = 1.0f;       ///< of GGX; 1 where the model has none
-    float metallic = 0.0f;    ///< 0 where the model has none
+    float alpha = 1.0f;       ///< GGX alpha; 1 if the model has none
+    float metallic = 0.0f;    ///< 0 if the model has none
     bool operator==(const HookedSurface&) const = default;
 };
-/// All that it gets at a point.
+/// All inputs of hookSurface() at a point.
 struct HookPoint {
-    HookedSurface surface; ///< as the material has it
+    HookedSurface surface; ///< values of the material before the hook
     glm::vec2 uv{0.0f};
     glm::vec3 positionOS{0.0f};
     int instance = 0;
     bool operator==(const HookPoint&) const = default;
 };
 
-/// A letter, then up to 31 letters and digits; not the name of what every hook has, timeSeconds.
+/// Whether a parameter name is valid: a letter, then up to 31 letters and digits; not the built-in timeSeconds.
 bool isHookParameterName(std::string_view name);
 
-/// Gives a parameter the value. Throws InputError where the hook has none of that name, or the value is not within its
-/// bounds; then nothing has changed.
+/// Sets a parameter. Throws InputError, without a change, if the hook has no such parameter or the value is out of
+/// bounds.
 void setHookValue(Hook& hook, const HookValue& value);
 
-/// Which functions a text names outside of comments.
+/// The hook functions that a text names outside of comments.
 struct HookFunctions {
     bool surface = false, vertex = false;
 };
 HookFunctions hookFunctions(std::string_view text);
 
-/// What keeps a text from being a hook.
+/// An error in a hook's text.
 struct HookFault {
     std::size_t line; ///< from 1
-    std::string why;  ///< with the remedy
+    std::string why;  ///< including the remedy
 };
-/// The first of what would break the promises that other passes and techniques rely on; none where there is none. A
-/// driver finds what is no GLSL.
+/// Finds the first violation of the rules that other passes and techniques rely on; none if there is none. Invalid GLSL
+/// is left to the driver.
 std::optional<HookFault> hookFault(std::string_view text);
-/// Throws InputError with the file's name, the line and the remedy where there is one.
+/// Throws InputError with the file's name, the line and the remedy if hookFault() finds one.
 void requireHook(const std::string& file, std::string_view text);
 
-/// Checks the text as requireHook() does and returns it for programs: macros expanded, comments removed, lines kept,
-/// declared names prefixed by kHookPrefix, loops guarded (HookLoops.h). So a hook reaches only its documented
-/// interface.
+/// Checks the text like requireHook() and returns it for inclusion in shaders: macros expanded, comments removed, lines
+/// kept, declared names prefixed by kHookPrefix, loops guarded (HookLoops.h). A hook can thus access only its
+/// documented interface.
 std::string hookProgramText(const std::string& file, std::string_view text);
 
 } // namespace tessera::scenes

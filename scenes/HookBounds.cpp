@@ -44,7 +44,7 @@ void add(Amounts& to, const Amounts& from) {
     for (std::size_t i = 0; i < AmountCount; ++i) to[i] = hookSum(to[i], from[i]);
 }
 
-/// Operations of a function of GLSL for each number of the widest value in its statement. Measured with Mesa 22.3.
+/// Operations of a GLSL function per component of the widest value in its statement. Measured with Mesa 22.3.
 std::size_t operationsOf(std::string_view function) {
     static const std::unordered_map<std::string_view, std::size_t> known{
         {"sin", 50},     {"cos", 50},      {"tan", 50},        {"asin", 25},       {"acos", 25},      {"atan", 60},
@@ -59,8 +59,8 @@ std::size_t operationsOf(std::string_view function) {
 struct Function {
     std::string_view name;
     std::uint32_t line = 1;
-    std::size_t order = 0; ///< place in the text
-    Amounts amounts{};     ///< of the body alone, then with called functions
+    std::size_t order = 0; ///< index of its name's token
+    Amounts amounts{};     ///< cost of the body; called functions are added later
     struct Call {
         std::string_view name;
         std::size_t order = 0;
@@ -69,12 +69,12 @@ struct Function {
     bool isCounted = false, isBeingCounted = false;
 };
 
-/// Finds functions and counts what stands in them.
+/// Finds functions and measures their contents.
 class Reader {
 public:
     explicit Reader(Tokens tokens) : tokens_(tokens), names_(tokens) {}
 
-    /// The last one holds what stands outside of functions: initialisers call functions too.
+    /// The last entry covers the text outside of functions, since initialisers call functions too.
     std::vector<Function> functions() {
         Function global, local;
         for (at_ = 0; at_ < tokens_.size(); ++at_) {
@@ -133,7 +133,7 @@ private:
     void word(Function& function) {
         static const std::unordered_map<std::string_view, std::size_t> kBranches{
             {"if", 1},      {"?", 1},     {"&&", 1},       {"||", 1},   {"case", 1},
-            {"default", 1}, {"break", 1}, {"continue", 1}, {"for", 20}, {"while", 20}}; // the last one of do as well
+            {"default", 1}, {"break", 1}, {"continue", 1}, {"for", 20}, {"while", 20}}; // while ends do loops too
         const HookToken& token = tokens_[at_];
         if (const auto found = kBranches.find(token.text); found != kBranches.end())
             function.amounts[Branches] += found->second;
@@ -142,7 +142,7 @@ private:
         operations_ += operationsOf(token.text);
     }
 
-    /// Adds up what stands between two of ; { }
+    /// Adds up the cost of a statement, delimited by ; { }
     void statement(Function& function) {
         const HookToken& token = tokens_[at_];
         const bool ends = token.is(";") || token.is("{") || token.is("}");
@@ -176,11 +176,11 @@ private:
     Tokens tokens_;
     HookNames names_;
     std::size_t at_ = 0;
-    std::vector<bool> brackets_; ///< those that are open; whether arguments stand in them
-    bool isInside_ = false;      ///< of a function, or between its name and its body
+    std::vector<bool> brackets_; ///< open brackets; true: around arguments of a call
+    bool isInside_ = false;      ///< in a function, or between its name and its body
     std::vector<Function> functions_;
     Places prototypes_; ///< by name
-    /// Of the statement that is read:
+    /// State of the current statement:
     std::size_t operations_ = 0, operators_ = 0, products_ = 0, divisions_ = 0, indices_ = 0, variables_ = 0;
     bool compares_ = false, constructs_ = false;
     HookSize widest_;

@@ -8,7 +8,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// The places between which the condition of the loop at `loop` stands; none where it is no loop of GLSL.
+/// The token range of the condition of the loop at `loop`; none if it is no valid loop.
 struct Condition {
     std::size_t begin = 0, end = 0;
 };

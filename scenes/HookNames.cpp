@@ -14,13 +14,13 @@ namespace tessera::scenes {
 namespace {
 
 constexpr std::size_t kMostSwizzle = 4, kSurfaceNumbers = 8;
-/// Operations of a product of mat4 for each of its numbers.
+/// Operations of a mat4 product per component.
 constexpr std::size_t kMatrixProduct = 7;
-/// Of a division of integers, and of an index for each number of its array, which becomes branches. Measured with Mesa
-/// 22.3.
+/// Operations of an integer division, and array components per operation of an index, which compiles to branches.
+/// Measured with Mesa 22.3.
 constexpr std::size_t kIntegerDivision = 40, kNumbersAnIndexOperation = 4;
 
-/// vec3, dmat4x2: digits are sides; one digit stands for both sides of a square matrix.
+/// Size of types such as vec3 and dmat4x2: digits are dimensions; a matrix with a single digit is square.
 HookSize builtInSize(std::string_view type) {
     std::size_t numbers = 1, side = 0, sides = 0;
     for (const char c : type)
@@ -37,7 +37,7 @@ HookSize builtInSize(std::string_view type) {
     return {numbers, numbers, isMatrix ? kMatrixProduct : 1, isInteger ? kIntegerDivision : 1};
 }
 
-/// The type that a function of GLSL or a member of the interface has at most.
+/// The widest type that a GLSL function returns or a member of the interface has.
 std::string_view builtInType(std::string_view name) {
     if (name == "outerProduct" || name == "transpose" || name == "inverse") return "mat4";
     if (name == "color" || name == "emission" || name == "positionOS") return "vec3";
@@ -89,14 +89,14 @@ std::size_t HookNames::arraySizeAt(std::size_t open) const {
     return std::size_t(std::min(*value, std::int64_t(kHugeHookSize)));
 }
 
-/// Values in a constructor's brackets: commas and one more, those of inner brackets included.
+/// Number of values in a constructor's brackets: commas plus one, those of inner brackets included.
 std::size_t HookNames::constructed(std::size_t open) const {
     const auto end = std::ptrdiff_t(behindBracket(tokens_, open));
     return 1 + std::size_t(std::count_if(tokens_.begin() + std::ptrdiff_t(open), tokens_.begin() + end,
                                          [](const HookToken& token) { return token.is(","); }));
 }
 
-/// The type with the array sizes at this place. Only a constructor may leave the first one out.
+/// Applies the array sizes at this place to the type. Only a constructor may omit the first one.
 HookSize HookNames::arrayOf(HookSize type, std::size_t at) const {
     const std::size_t end = behindArraySizes(at);
     for (bool isFirst = true; is(at, "["); isFirst = false) {

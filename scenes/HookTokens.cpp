@@ -16,8 +16,8 @@ namespace {
 
 using Kind = HookToken::Kind;
 
-constexpr int kMostMacroDepth = 64;      ///< of calls in the arguments of calls
-constexpr int kMostExpressionDepth = 64; ///< of brackets and signs before a number
+constexpr int kMostMacroDepth = 64;      ///< nested calls in arguments
+constexpr int kMostExpressionDepth = 64; ///< nested brackets and unary operators
 
 bool isDigit(char c) {
     return c >= '0' && c <= '9';
@@ -72,9 +72,9 @@ std::vector<HookToken> tokensOf(std::string_view line, std::uint32_t number) {
 
 struct Macro {
     bool hasParameters = false;
-    std::unordered_map<std::string_view, std::size_t> parameters; ///< places by name
+    std::unordered_map<std::string_view, std::size_t> parameters; ///< indices by name
     std::vector<HookToken> body;
-    bool isActive = false; ///< its own tokens are being read
+    bool isActive = false; ///< its body is being expanded
 };
 
 class Preprocessor {
@@ -102,9 +102,9 @@ public:
 
 private:
     struct Branch {
-        bool isActive, wasActive; ///< this one, and any so far or the text around all of them
+        bool isActive, wasActive; ///< this branch; an earlier one was, or the enclosing text is inactive
     };
-    /// Where tokens come from: the text, or a macro's.
+    /// A source of tokens: the text or a macro's body.
     struct Source {
         std::vector<HookToken> tokens;
         std::size_t at = 0;
@@ -121,7 +121,7 @@ private:
                                               kMostHookTokens)};
     }
 
-    /// A macro is called on both sides of a directive by no driver alike.
+    /// Expands pending text before a directive: drivers disagree about macro calls that span one.
     void flush() { expand(std::exchange(pending_, {}), result_, 0); }
 
     void follow(std::span<const HookToken> line) {
@@ -202,7 +202,7 @@ private:
         macros_.insert_or_assign(rest[0].text, std::move(macro));
     }
 
-    /// The next token, of the innermost source that has one left.
+    /// The next token of the innermost source that has any left.
     std::optional<HookToken> peek(std::vector<Source>& sources) const {
         while (!sources.empty()) {
             if (sources.back().at < sources.back().tokens.size()) return sources.back().tokens[sources.back().at];
@@ -254,7 +254,7 @@ private:
         }
     }
 
-    /// The body of a macro with the arguments that follow.
+    /// A macro's body with the following arguments substituted.
     std::vector<HookToken> called(const Macro& macro, const HookToken& name, std::vector<Source>& sources, int depth) {
         take(sources); // (
         std::vector<std::vector<HookToken>> arguments(1);
@@ -296,7 +296,7 @@ private:
     std::size_t made_ = 0;
 };
 
-/// Reads by precedence. Overflow wraps, as in GLSL.
+/// Evaluates integer expressions by precedence. Overflow wraps, as in GLSL.
 class WholeNumbers {
 public:
     using ValueOf = std::function<std::optional<std::int64_t>(std::string_view name)>;
@@ -339,7 +339,7 @@ private:
         if (sign == "+") return std::int64_t(x + y);
         if (sign == "-") return std::int64_t(x - y);
         if (sign == "*") return std::int64_t(x * y);
-        if (b == 0 || b == -1) return std::nullopt; // -1: the least number has no opposite
+        if (b == 0 || b == -1) return std::nullopt; // -1: the minimum has no negation
         return sign == "/" ? a / b : a % b;
     }
 

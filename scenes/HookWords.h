@@ -1,13 +1,13 @@
 #pragma once
 #include <string_view>
 
-/// The words of GLSL that a hook may use, beside those that it declares itself.
+/// The GLSL words that a hook may use besides its own declarations.
 namespace tessera::scenes {
 
-bool isHookType(std::string_view word);      ///< of a variable: float, mat3, HookInputs
-bool isHookQualifier(std::string_view word); ///< what may stand before a type: const, inout, highp
-/// Any of those, another keyword, or a function that gives the same result for the same arguments wherever it runs.
-/// Nothing that reads textures, memory or neighbours, and no word of the program's own.
+bool isHookType(std::string_view word);      ///< a type: float, mat3, HookInputs
+bool isHookQualifier(std::string_view word); ///< a qualifier of types: const, inout, highp
+/// Any of those, another keyword, or a function with the same result for the same arguments everywhere. Excludes
+/// functions that read textures, memory or neighbours, and the engine's own names.
 bool isHookWord(std::string_view word);
 
 } // namespace tessera::scenes

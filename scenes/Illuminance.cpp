@@ -25,7 +25,7 @@ double illuminanceAt(const Light& light, const glm::dvec3& positionWS) {
         const glm::dvec3 by(light.attenuation);
         return strength / (by.x + by.y * metres + by.z * metres * metres);
     }
-    const double area = info.isArea ? largestSeenArea(light) : 1.0; // of radiance, else candela
+    const double area = info.isArea ? largestSeenArea(light) : 1.0; // intensity is radiance, else candela
     constexpr double kLeastMetres = 0.01;
     const double nearest = std::max(metres, kLeastMetres);
     return strength * area / (nearest * nearest);

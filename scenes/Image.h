@@ -8,7 +8,7 @@ namespace tessera::scenes {
 
 enum class TexelFormat : std::uint8_t { Rgba8Unorm, Rgba16Unorm, Rgba32Float };
 
-/// Decoded picture: 4 channels, rows from the top, texels as stored in the file (no transfer function applied).
+/// Decoded image: 4 channels, rows from the top, texels as stored in the file (no transfer function applied).
 struct Image {
     std::string name;
     TexelFormat format = TexelFormat::Rgba8Unorm;
@@ -17,7 +17,7 @@ struct Image {
     std::vector<std::byte> texels;
 };
 
-/// Bytes of one texel of `format`.
+/// Bytes per texel.
 std::size_t texelBytes(TexelFormat format);
 
 } // namespace tessera::scenes

@@ -9,7 +9,7 @@
 
 namespace tessera::scenes {
 
-/// What the numbers of a model's lights count: candela and lux, of which 683 make a watt, or watts themselves.
+/// Unit of the light intensities of a model: photometric (candela and lux, 683 lm per watt), or radiometric (watts).
 enum class LightUnits : std::uint8_t { Lumen, Watt, Count };
 struct LightUnitsInfo {
     LightUnits units;
@@ -18,7 +18,7 @@ struct LightUnitsInfo {
 inline constexpr std::array kLightUnits{LightUnitsInfo{LightUnits::Lumen, "lumen"},
                                         LightUnitsInfo{LightUnits::Watt, "watt"}};
 static_assert(isInOrder(kLightUnits, &LightUnitsInfo::units, std::size_t(LightUnits::Count)));
-/// Of monochromatic light at 540 THz, by the definition of the candela.
+/// Luminous efficacy of monochromatic light of 540 THz, by the definition of the candela.
 inline constexpr double kLumensPerWatt = 683.0;
 
 /// The encoding of vertex colours in OBJ files.
@@ -31,12 +31,11 @@ inline constexpr std::array kObjColours{ObjColoursInfo{ObjColours::Srgb, "srgb"}
                                         ObjColoursInfo{ObjColours::Linear, "linear"}};
 static_assert(isInOrder(kObjColours, &ObjColoursInfo::encoding, std::size_t(ObjColours::Count)));
 
-/// How models are to be read, where a command says it. It holds for every model of a load, also for those that a scene
-/// file names.
+/// Requested import options. They apply to every model of a load, including those named by scene files.
 struct ImportWishes {
-    bool isStrict = false;                ///< a flaw that can be repaired refuses its model; else a warning names it
-    std::optional<std::string> variant;   ///< shown of the models that have one of this name (KHR_materials_variants)
-    std::optional<LightUnits> lightUnits; ///< of glTF models; none: as their exporter is known to write them
+    bool isStrict = false;                ///< reject models with repairable flaws instead of warning
+    std::optional<std::string> variant;   ///< material variant to use in models that have it (KHR_materials_variants)
+    std::optional<LightUnits> lightUnits; ///< of glTF models; none: deduced from the exporter
     ObjColours objColours = ObjColours::Srgb;
     bool operator==(const ImportWishes&) const = default;
 };

@@ -22,7 +22,7 @@ bool isDrawn(const Scene& scene, const MeshInstance& instance) {
 
 InUse inUse(const Scene& scene) {
     InUse used{std::vector<bool>(scene.materials.size()), std::vector<bool>(scene.meshes.size())};
-    // Asked often, of scenes that have far more nodes than materials and meshes.
+    // Called often, for scenes with far more nodes than materials and meshes.
     std::size_t unused = used.materials.size() + used.meshes.size();
     const auto mark = [&unused](std::vector<bool>::reference isUsed) {
         unused -= isUsed ? 0 : 1;
@@ -59,7 +59,7 @@ bool spreads(const Scene& scene, const MeshInstance& instance, SubsurfaceRequest
 }
 
 bool anySpreads(const Scene& scene, SubsurfaceRequest request) {
-    // Asked often, of scenes that have far more nodes than materials.
+    // Called often, for scenes with far more nodes than materials.
     const bool mayDo = std::ranges::any_of(
         scene.materials, [&](const Material& material) { return infoOf(subsurfaceOf(material, request)).spreads; });
     return mayDo && std::ranges::any_of(scene.nodes, [&](const Node& node) {

@@ -3,15 +3,14 @@
 
 #include "scenes/Scene.h"
 
-/// What of a scene is drawn. Files carry spare materials, meshes and pictures; nothing that decides how a frame is
-/// stored or drawn may look at those.
+/// The parts of a scene that are drawn. Files contain unused materials, meshes and images, which must not affect how a
+/// frame is stored or drawn.
 namespace tessera::scenes {
 
 /// Whether an instance draws anything: its mesh has triangles.
 bool isDrawn(const Scene& scene, const MeshInstance& instance);
 
-/// Whether each material and mesh belongs to an instance that is drawn. A picture is in use where a material in use
-/// has it in a slot.
+/// The materials and meshes of instances that are drawn. An image is in use if a material in use references it.
 struct InUse {
     std::vector<bool> materials; ///< by index
     std::vector<bool> meshes;    ///< by index
@@ -24,12 +23,12 @@ std::vector<const Material*> materialsInUse(const Scene& scene);
 /// The meshes in use, in the scene's order.
 std::vector<const Mesh*> meshesInUse(const Scene& scene);
 
-/// Whether any material has subsurface scattering, of which a request may choose another method.
+/// Whether any material has subsurface scattering; a request may change its method.
 bool anyScatters(const Scene& scene);
 
-/// Whether light spreads over what an instance draws.
+/// Whether the subsurface method of an instance diffuses irradiance over its surface.
 bool spreads(const Scene& scene, const MeshInstance& instance, SubsurfaceRequest request);
-/// Whether it does over any.
+/// Whether that of any instance does.
 bool anySpreads(const Scene& scene, SubsurfaceRequest request);
 
 } // namespace tessera::scenes

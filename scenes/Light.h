@@ -19,28 +19,27 @@
 #include "scenes/LightTexture.h"
 #include "scenes/Material.h"
 
-/// Lights as plain data, their members as a table, and their types as a table. Everything that names a type or one of
-/// its parameters follows the two: scene files, checks, fingerprints, the viewer, the shaders' defines, packing,
-/// culling.
+/// Light data, with a table of its members and one of its types. All code that handles types or their parameters uses
+/// these tables: scene files, checks, fingerprints, the viewer, the shaders' defines, packing, culling.
 namespace tessera::scenes {
 
-/// Bounds of a light's size, far beyond any sun: 80 degrees, whose tangent keeps its digits, and 1000 km.
+/// Maximum size of a light, far beyond any sun: 80 degrees, whose tangent is still accurate, and 1000 km.
 inline constexpr double kMostAngularRadiusDegrees = 80.0;
 inline constexpr double kMostAngularRadiusRadians = 1.3962635;
 inline constexpr double kMostRadiusMetres = 1e6;
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// lightTypes() says what each of them has.
+/// lightTypes() lists the properties of each type.
 enum class LightType : std::uint8_t {
-    Directional, ///< from far away, everywhere along its direction
-    Point,       ///< from its position, alike in all directions
+    Directional, ///< infinitely far away, along its direction
+    Point,       ///< from its position, uniform in all directions
     Spot,        ///< from its position, into a cone around its direction
-    Rectangle,   ///< from a rectangle around its position that faces its direction
-    Disk,        ///< from a disk around its position that faces its direction
-    Sphere,      ///< from a sphere around its position
-    Tube,        ///< from a closed cylinder around its position, along its direction
-    Polygon,     ///< from within an outline of straight edges through its position, which faces its direction
+    Rectangle,   ///< from a rectangle centred at its position, facing its direction
+    Disk,        ///< from a disk centred at its position, facing its direction
+    Sphere,      ///< from a sphere centred at its position
+    Tube,        ///< from a closed cylinder centred at its position, along its direction
+    Polygon,     ///< from a polygon in the plane of its position, facing its direction
     Count
 };
 
@@ -49,9 +48,9 @@ enum class Falloff : std::uint8_t {
     Attenuation    ///< colour / max(A + B d + C d^2, 1e-4)
 };
 
-/// The corners of an outline in the order of its edges, in metres from the light's position: x along Light::alongWS, y
-/// across it, at right angles to both that and the light's direction. They lie within the light, since every light has
-/// them. cornersProblem() (scenes/AreaLight.h) says what makes no outline.
+/// Corners of a polygon's outline in the order of its edges, in metres from the light's position: x along
+/// Light::alongWS, y perpendicular to both that and the light's direction. Stored inline, since every light has them.
+/// cornersProblem() (scenes/AreaLight.h) validates them.
 struct LightCorners {
     static constexpr std::size_t kLeast = 3, kMost = 8;
     std::size_t count = 4;
@@ -59,7 +58,7 @@ struct LightCorners {
                                         glm::vec2(-0.5f, 0.5f)};
 
     std::span<const glm::vec2> all() const { return std::span(metres).first(std::min(count, kMost)); }
-    /// False, and no change, where there are as many as there can be.
+    /// Returns false, without a change, if there are kMost corners already.
     bool add(const glm::vec2& cornerMetres) {
         if (count >= kMost) return false;
         metres[count++] = cornerMetres;
@@ -74,12 +73,12 @@ struct Light {
     std::string name;
     LightType type = LightType::Point;
     bool enabled = true;
-    bool castsShadow = false;          ///< casters hide it from surfaces (scenes/Shadows.h)
-    float radiusMetres = 0.0f;         ///< with a position: of the disk that its shadows see (scenes/Shadows.h); Disk,
-                                       ///< Sphere and Tube: of what shines
-    float angularRadiusRadians = 0.0f; ///< without one: the same as seen from anywhere
+    bool castsShadow = false;  ///< shadow casters block it (scenes/Shadows.h)
+    float radiusMetres = 0.0f; ///< with a position: of the disk that softens its shadows (scenes/Shadows.h); Disk,
+                               ///< Sphere and Tube: of the emitting surface
+    float angularRadiusRadians = 0.0f; ///< without a position: angular radius of that disk
     glm::vec3 color{1.0f};             ///< linear RGB
-    float intensity = 1.0f;            ///< in the unit of its type; a plain factor with Falloff::Attenuation
+    float intensity = 1.0f;            ///< in the unit of its type; a unitless factor with Falloff::Attenuation
     glm::dvec3 positionWS{0.0};
     glm::dvec3 directionWS{0.0, 0.0, -1.0}; ///< unit, the way the light travels
     Falloff falloff = Falloff::InverseSquare;
@@ -88,16 +87,16 @@ struct Light {
     float innerConeRadians = 0.0f;           ///< Spot: half angle of full intensity
     float outerConeRadians = 0.7853981634f;  ///< Spot: half angle beyond which there is no light
     float widthMetres = 1.0f;                ///< Rectangle: along alongWS
-    float heightMetres = 1.0f;               ///< Rectangle: across it
+    float heightMetres = 1.0f;               ///< Rectangle: perpendicular to alongWS
     float lengthMetres = 1.0f;               ///< Tube: along its direction
-    LightCorners corners;                    ///< Polygon: of its outline
-    glm::dvec3 alongWS{1.0, 0.0, 0.0};       ///< Rectangle and Polygon: unit, at right angles to directionWS
-    bool isTwoSided = false;                 ///< what is flat: shines from the back too
-    bool isSeen = true;                      ///< with an area: pictures show the surface
-    LightTexture texture;                    ///< what is flat: factors of its radiance, all over its surface
+    LightCorners corners;                    ///< Polygon: outline
+    glm::dvec3 alongWS{1.0, 0.0, 0.0};       ///< Rectangle and Polygon: unit, perpendicular to directionWS
+    bool isTwoSided = false;                 ///< flat types: shines from the back too
+    bool isSeen = true;                      ///< area types: the surface itself is visible
+    LightTexture texture;                    ///< flat types: factors of the radiance over the surface
     std::optional<LightAnimation> animation;
     std::optional<LightFlicker> flicker;
-    std::vector<LightKeys> keyframes; ///< of anything but the position, each once
+    std::vector<LightKeys> keyframes; ///< of members other than the position, each at most once
     bool operator==(const Light&) const = default;
 };
 
@@ -140,49 +139,49 @@ static_assert(std::tuple_size_v<decltype(kLightFields)> == detail::memberCount<L
 
 // ---- Types ---------------------------------------------------------------------------------------------------------
 
-/// A parameter of a type beside position, direction and falloff.
+/// A parameter of a type besides position, direction and falloff.
 struct LightParameter {
     enum class Kind : std::uint8_t {
         Number,
-        Metres, ///< the viewer's slider goes as far as the scene is large
-        Angle   ///< radians in its member, degrees in scene files and the viewer
+        Metres, ///< the range of the viewer's slider is the size of the scene
+        Angle   ///< radians in the member, degrees in scene files and the viewer
     };
     Kind kind;
     const char* key;   ///< of scene files
     const char* label; ///< in the viewer
     float Light::*member;
-    float least = 0.0f; ///< in scene files and of the viewer's slider; degrees of an angle
+    float least = 0.0f; ///< bound in scene files and of the viewer's slider; degrees for angles
     float most = 1.0f;
-    float Light::*within = nullptr; ///< another angle of the type, which this one is never wider than
+    float Light::*within = nullptr; ///< another angle of the type: upper bound of this one
 };
 
-/// Where a light can shine, which culling, light volumes and the culling oracle follow.
+/// Extent of a light, used by culling, light volumes and the culling oracle.
 enum class LightReach : std::uint8_t {
-    Everywhere, ///< it has no position
-    Sphere,     ///< around its position, as far as its falloff reaches
+    Everywhere, ///< no position, no bounds
+    Sphere,     ///< around its position, with the range of its falloff
     Cone        ///< the part of that sphere within outerConeRadians of its direction
 };
 
 struct LightTypeInfo {
     LightType type;
-    std::string_view name; ///< of scene files; in capitals that of shaders: LIGHT_<NAME> is its number,
+    std::string_view name; ///< in scene files; in capitals in shaders: LIGHT_<NAME> is its index,
                            ///< HAS_<NAME>_LIGHTS 0 or 1
     const char* unit;      ///< of its intensity
     LightReach reach;
     bool hasDirection;
     std::span<const LightParameter> parameters{};
-    /// It shines from a surface: intensity is its radiance, Light::falloff is InverseSquare, and Light::isSeen.
+    /// It emits from a surface: intensity is radiance, Light::falloff is InverseSquare, and Light::isSeen applies.
     bool isArea = false;
-    /// An area with a front, towards its direction, and a back: Light::isTwoSided, and Light::texture.
+    /// A flat area with a front, facing its direction, and a back: Light::isTwoSided and Light::texture apply.
     bool isFlat = false;
 
-    /// A position, and with it a falloff, perhaps a range, and perhaps an animation.
+    /// Whether it has a position, and thus a falloff, optionally a range and an animation.
     constexpr bool hasPosition() const { return reach != LightReach::Everywhere; }
-    /// Light::widthMetres along Light::alongWS and Light::heightMetres across it, in place of a radius.
+    /// Whether Light::widthMetres along Light::alongWS and Light::heightMetres across it replace the radius.
     constexpr bool hasSides() const { return type == LightType::Rectangle; }
-    /// Light::corners in place of sides and radius.
+    /// Whether Light::corners replace sides and radius.
     constexpr bool hasCorners() const { return type == LightType::Polygon; }
-    /// Light::alongWS says how it is turned about its direction.
+    /// Whether Light::alongWS sets the rotation about its direction.
     constexpr bool isTurned() const { return hasSides() || hasCorners(); }
     /// Whether shaders read LightShapeTexels for this type (shaders/shared/light.h).
     constexpr bool hasShape() const { return (hasPosition() && hasDirection) || !parameters.empty() || isArea; }
@@ -230,12 +229,12 @@ static_assert(areLightTypesSound(), "the table of light types follows the enumer
 
 inline constexpr std::size_t kLightTypeCount = detail::kLightTypes.size();
 
-/// The types that shine from a surface, and those of them that are flat. What treats each shape in its own way asserts
-/// the number, so that no new shape is taken for another one.
+/// Numbers of the types that emit from a surface, and of the flat ones among them. Code with a case for each shape
+/// asserts them, so that no new shape is mistaken for another one.
 inline constexpr auto kAreaTypeCount = std::ranges::count(detail::kLightTypes, true, &LightTypeInfo::isArea);
 inline constexpr auto kFlatTypeCount = std::ranges::count(detail::kLightTypes, true, &LightTypeInfo::isFlat);
 
-/// The only list of types; row i is that of type i.
+/// The single table of light types, indexed by LightType.
 constexpr std::span<const LightTypeInfo> lightTypes() {
     return detail::kLightTypes;
 }
@@ -243,8 +242,8 @@ constexpr const LightTypeInfo& infoOf(LightType type) {
     return detail::kLightTypes[std::size_t(type)];
 }
 
-/// What every type has beside the parameters of its row, but those with sides or corners: what makes its shadows soft,
-/// and of an area light how far its surface reaches.
+/// The radius or angular radius of types without sides or corners; else null. It softens shadows and, for area lights,
+/// is the size of the surface.
 constexpr const LightParameter* sizeParameter(const LightTypeInfo& type) {
     if (type.isTurned()) return nullptr;
     return type.hasPosition() ? &detail::kRadius : &detail::kAngularRadius;
@@ -255,9 +254,9 @@ constexpr const LightParameter* sizeParameter(const LightTypeInfo& type) {
 struct LightKeyedInfo {
     LightKeyed member;
     std::string_view name;  ///< in a light's "keyframes" of scene files
-    std::string_view label; ///< for people
-    std::variant<glm::dvec3 Light::*, glm::vec3 Light::*, float Light::*> at; ///< its field's bounds hold between keys
-    /// Linear keys are joined along great circles, at constant speed, and values are unit vectors.
+    std::string_view label; ///< for users
+    std::variant<glm::dvec3 Light::*, glm::vec3 Light::*, float Light::*> at; ///< clamped to its field's bounds
+    /// Values are unit vectors; linear keys are interpolated along great circles at constant speed.
     bool isOnSphere = false;
 
     constexpr std::size_t width() const { return std::holds_alternative<float Light::*>(at) ? 1 : 3; }
@@ -284,8 +283,8 @@ consteval bool areKeyedMembersSound() {
 static_assert(areKeyedMembersSound(), "the table of members with keyframes follows the enumeration");
 } // namespace detail
 
-/// The only list of them; row i is that of member i. The position's keyframes are those of LightAnimation, all others
-/// stand in Light::keyframes.
+/// The single table of members with keyframes, indexed by LightKeyed. The position's keyframes are stored in
+/// LightAnimation, all others in Light::keyframes.
 constexpr std::span<const LightKeyedInfo> keyedMembers() {
     return detail::kKeyedMembers;
 }

@@ -14,12 +14,12 @@
 namespace tessera::scenes {
 namespace {
 
-/// What is left of whole turns: of more turns than a double can count nothing is.
+/// Fractional part of a number of turns; 0 if it is not finite.
 double shareOf(double turns) {
     return std::isfinite(turns) ? turns - std::floor(turns) : 0.0;
 }
 
-/// The share of the period that has passed, 0 <= share < 1: taken before any trigonometry, so that late times stay
+/// The fraction of the period that has passed, 0 <= share < 1: reduced before any trigonometry, so that late times stay
 /// exact.
 double periodShare(const LightAnimation& animation, double timeSeconds) {
     return shareOf(timeSeconds / animation.periodSeconds + animation.phase);
@@ -32,10 +32,10 @@ glm::dvec3 rotated(const glm::dvec3& vector, const glm::dvec3& unitAxis, double 
     return vector * c + glm::cross(unitAxis, vector) * s + unitAxis * (glm::dot(unitAxis, vector) * (1.0 - c));
 }
 
-/// A stretch of a path from a point to the next.
+/// The segment of a path between two consecutive points.
 struct PathSide {
     glm::dvec3 fromWS, toWS;
-    glm::dvec3 fromSlopeWS, toSlopeWS; ///< by the share of the side
+    glm::dvec3 fromSlopeWS, toSlopeWS; ///< derivative by the fraction of the segment
     PathLine line;
 
     glm::dvec3 placeAt(double share) const {
@@ -43,7 +43,7 @@ struct PathSide {
         const std::array<double, 4> weights = splineWeights(share, 1.0);
         return weights[0] * fromWS + weights[1] * fromSlopeWS + weights[2] * toWS + weights[3] * toSlopeWS;
     }
-    /// Of any length, the way from the one point to the other.
+    /// Tangent towards the end point, of any length.
     glm::dvec3 tangentAt(double share) const {
         if (line == PathLine::Straight) return toWS - fromWS;
         const std::array<double, 4> weights = splineSlopeWeights(share);
@@ -51,13 +51,13 @@ struct PathSide {
     }
 };
 
-/// The time from a point to the next is the root of their distance, so that curves neither loop nor have cusps.
-/// Source: Yuksel, Schaefer and Keyser 2011, "Parameterization and Applications of Catmull-Rom Curves".
+/// Centripetal parameterisation: the time between two points is the square root of their distance, which avoids loops
+/// and cusps. Source: Yuksel, Schaefer and Keyser 2011, "Parameterization and Applications of Catmull-Rom Curves".
 double centripetalTime(const glm::dvec3& fromWS, const glm::dvec3& toWS) {
     return std::sqrt(glm::distance(fromWS, toWS));
 }
 
-/// By that time, at a point between two others. Points in one place count once.
+/// Velocity by that time at the middle of three points. Coincident points count once.
 glm::dvec3 velocityAt(const glm::dvec3& beforeWS, const glm::dvec3& hereWS, const glm::dvec3& afterWS) {
     const double before = centripetalTime(beforeWS, hereWS), after = centripetalTime(hereWS, afterWS);
     if (!(before > 0.0)) return after > 0.0 ? (afterWS - hereWS) / after : glm::dvec3(0.0);
@@ -65,7 +65,7 @@ glm::dvec3 velocityAt(const glm::dvec3& beforeWS, const glm::dvec3& hereWS, cons
     return (hereWS - beforeWS) / before - (afterWS - beforeWS) / (before + after) + (afterWS - hereWS) / after;
 }
 
-/// Side `i` of a path. Beyond its ends an open one goes on as a mirror would show it.
+/// Segment `i` of a path. Open paths are extended beyond their ends by reflection.
 PathSide sideOf(const LightAnimation& path, std::size_t i) {
     const std::vector<glm::dvec3>& pointsWS = path.pointsWS;
     const std::size_t count = pointsWS.size();
@@ -85,11 +85,11 @@ struct OnPath {
     glm::dvec3 aheadWS; ///< of any length
 };
 
-/// An open path is run along there and back. Speed is constant by chords, of which a curved side has many.
+/// Open paths run there and back. Speed is constant along chords; curved segments have many.
 OnPath alongPath(const LightAnimation& path, double share) {
     const std::size_t sides = path.pointsWS.size() - (path.isOpen ? 1 : 0);
     const std::size_t chords = path.line == PathLine::Straight ? 1 : 64;
-    std::vector<double> endMetres; // by chord, from the path's beginning
+    std::vector<double> endMetres; // cumulative length, by chord
     double lengthMetres = 0.0;
     for (std::size_t i = 0; i < sides; ++i) {
         const PathSide side = sideOf(path, i);
@@ -113,7 +113,7 @@ OnPath alongPath(const LightAnimation& path, double share) {
     return {side.placeAt(ofSide), isBackward ? -onwardWS : onwardWS};
 }
 
-/// The time between the first key and the last at which all is as at `timeSeconds`.
+/// Maps a time into the range of the keys, according to KeyRepeat.
 double withinKeys(const LightKeys& keys, double timeSeconds) {
     const double first = keys.timesSeconds.front();
     const double length = keys.timesSeconds.back() - first;
@@ -124,7 +124,7 @@ double withinKeys(const LightKeys& keys, double timeSeconds) {
     return first + (isBackward ? 1.0 - share : share) * length;
 }
 
-/// Between unit vectors the shortest way at constant speed; between opposite ones any way, always the same.
+/// Interpolates unit vectors along the shorter great circle at constant speed; for opposite ones along a fixed one.
 glm::dvec3 alongGreatCircle(const glm::dvec3& from, const glm::dvec3& to, double share) {
     const glm::dvec3 normal = glm::cross(from, to);
     const double sine = glm::length(normal), cosine = glm::dot(from, to);
@@ -150,7 +150,7 @@ glm::dvec3 betweenKeys(const LightKeys& keys, double anyTimeSeconds) {
         const std::array<double, 4> weights = splineWeights(share, seconds);
         const glm::dvec3 value = weights[0] * from + weights[1] * keys.outTangents[i - 1] + weights[2] * to +
                                  weights[3] * keys.inTangents[i];
-        return isOnSphere ? directionOf(value).value_or(from) : value; // through the middle there is no direction
+        return isOnSphere ? directionOf(value).value_or(from) : value; // a spline through zero has no direction
     }
     case Interpolation::Linear:
         break;
@@ -158,7 +158,7 @@ glm::dvec3 betweenKeys(const LightKeys& keys, double anyTimeSeconds) {
     return isOnSphere ? alongGreatCircle(from, to, share) : glm::mix(from, to, share);
 }
 
-/// A light as it is without its animation.
+/// Applies an animation to a light in its rest state.
 void animate(Light& light, const LightAnimation& animation, double timeSeconds) {
     switch (animation.kind) {
     case LightAnimationKind::Orbit: {
@@ -195,7 +195,7 @@ double hashedShare(std::uint64_t number) {
 } // namespace
 
 double flickerAt(const LightFlicker& flicker, double timeSeconds) {
-    // Without common divisors, so that the whole repeats late; the last is the frequency itself.
+    // Coprime, so that the sum repeats late; the last one is the frequency itself.
     constexpr std::array kHarmonics{17.0, 29.0, 43.0, 64.0};
     const double share = shareOf(timeSeconds * (flicker.frequencyHz / kHarmonics.back()));
     double sum = 0.0;

@@ -31,7 +31,7 @@ namespace {
 struct Format {
     std::string_view extension;
     Scene (*import)(const std::filesystem::path&, LoadLedger&);
-    bool isModel = true; ///< of which nothing says how it is to be shown
+    bool isModel = true; ///< a format without display settings
 };
 constexpr std::array kFormats = {Format{".gltf", importGltf}, Format{".glb", importGltf}, Format{".obj", importObj},
                                  Format{".json", importSceneJson, false}};
@@ -43,7 +43,7 @@ const Format* formatOf(const std::filesystem::path& file) {
     return found == kFormats.end() ? nullptr : &*found;
 }
 
-/// Names the scene file in the folder where there is just one: most models come in a folder of their own.
+/// Suggests the folder's scene file if there is just one: most models come in a folder of their own.
 [[noreturn]] void refuseFolder(const std::string& path) {
     std::vector<std::string> files;
     std::error_code failure;
@@ -94,7 +94,7 @@ void takeWarnings(LoadLedger& ledger, std::vector<std::string>& warnings) {
     warnings.insert(warnings.end(), ofPictures.begin(), ofPictures.end());
 }
 
-/// A file may cause a warning in every line, and nobody reads thousands.
+/// Truncates the warnings: a file may cause one in every line.
 void keepFirstWarnings(std::vector<std::string>& warnings) {
     constexpr std::size_t kMostWarnings = 100;
     if (warnings.size() <= kMostWarnings) return;
@@ -115,8 +115,8 @@ std::string without(std::string_view part, std::string text) {
     return text;
 }
 
-/// Who shows a scene's warnings names the scene, so they name files as seen from its folder, and the scene's own not at
-/// all. What several included files say alike stands once.
+/// Makes file names in warnings relative to the scene's folder, and drops the name of the scene's file, which is
+/// printed with them. Removes duplicates, which included files may cause.
 void shortenWarnings(std::vector<std::string>& warnings, const std::string& path) {
     const std::string folder = std::filesystem::path(path).parent_path().string(), own = path + ": ";
     std::unordered_set<std::string> said;
@@ -129,7 +129,7 @@ void shortenWarnings(std::vector<std::string>& warnings, const std::string& path
     warnings = std::move(kept);
 }
 
-/// Area lights that are on and have nothing to shine from.
+/// Warns of area lights that are enabled but have no surface.
 void warnOfDarkAreas(Scene& scene) {
     std::size_t count = 0;
     std::string first;
@@ -257,7 +257,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     addDefaultCamera(scene, options.aspect);
     own.studioDegrees = chosenStudioDegrees(scene);
     if (options.environment && scene.environment) layAs(own, *scene.environment);
-    // Who asks for no lights, or chooses an environment or none, gets what was asked for.
+    // A request for no lights, or for an environment or none, is respected.
     if (options.defaultLight && scene.options.defaultLight.value_or(true) && options.lights != 0 &&
         !options.environment)
         addDefaultLight(scene, ledger);

@@ -19,7 +19,7 @@ std::uint64_t bytesOf(const std::vector<Element>& elements) {
     return elements.size() * sizeof(Element);
 }
 
-/// Beside the object itself.
+/// Memory on the heap, without the object itself.
 std::uint64_t bytesWithin(const LightKeys& keys) {
     return bytesOf(keys.timesSeconds) + bytesOf(keys.values) + bytesOf(keys.inTangents) + bytesOf(keys.outTangents);
 }
@@ -38,7 +38,7 @@ std::optional<std::uint64_t> groupLimitBytes(const std::filesystem::path& member
                                              const std::filesystem::path& groups) {
     std::optional<std::uint64_t> least;
     std::ifstream lines(membership);
-    // Each is NUMBER:CONTROLLERS:/PATH; version 2 names no controllers.
+    // Each line is NUMBER:CONTROLLERS:/PATH; version 2 names no controllers.
     for (std::string line; std::getline(lines, line);) {
         const std::size_t first = line.find(':');
         const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
@@ -47,7 +47,7 @@ std::optional<std::uint64_t> groupLimitBytes(const std::filesystem::path& member
         const bool isVersion2 = controllers == ",,";
         if (!isVersion2 && controllers.find(",memory,") == std::string::npos) continue;
         const std::filesystem::path root = isVersion2 ? groups : groups / "memory";
-        // In a container the path may be one of the host's, and only the root is there.
+        // In a container the path may be the host's, and only the root exists.
         std::filesystem::path group = (root / line.substr(std::min(second + 2, line.size()))).lexically_normal();
         const bool isBelowRoot = std::ranges::mismatch(root, group).in1 == root.end();
         if (!isBelowRoot) group = root;
@@ -125,7 +125,7 @@ std::uint64_t bytesOf(const Scene& scene) {
     for (const Material& material : scene.materials) bytes += material.name.size();
     for (const Mesh& mesh : scene.meshes) bytes += bytesOf(mesh);
     for (const Node& node : scene.nodes) bytes += sizeof(Node) + node.name.size() + bytesOf(node.instances);
-    std::set<const LightPicture*> pictures; // shared by the lights that name them
+    std::set<const LightPicture*> pictures; // lights may share a texture
     for (const Light& light : scene.lights) {
         bytes += light.name.size();
         if (light.texture && pictures.insert(&*light.texture).second)

@@ -14,27 +14,27 @@
 
 namespace tessera::scenes {
 
-/// Half of the machine's memory, or of what the control groups of the process may use where that is less.
+/// Half of the machine's memory, or of the limit of the process's control groups if that is less.
 std::uint64_t defaultMemoryLimitBytes();
 
-/// The least that the control groups in which the process is, and those above them, may use; none without a limit.
-/// `membership` says which they are, `groups` is the folder of all. Source: Linux, cgroups(7), both versions.
+/// The lowest memory limit of the process's control groups and their parents; none without a limit. `membership` lists
+/// the groups, `groups` is their root folder. Source: Linux, cgroups(7), both versions.
 std::optional<std::uint64_t> groupLimitBytes(const std::filesystem::path& membership = "/proc/self/cgroup",
                                              const std::filesystem::path& groups = "/sys/fs/cgroup");
 
 /// "512 B", "1.5 KiB", "2.0 GiB".
 std::string sizeText(std::uint64_t bytes);
 
-/// A load would take more memory than it may. No importer draws anything else instead.
+/// Thrown when a load would exceed its memory limit. Importers do not substitute anything for the refused data.
 class MemoryRefused : public InputError {
 public:
     using InputError::InputError;
 };
 
-/// How one load is to read models, the files it has read, whom it tells how far it is, and the memory it may take.
-/// Importers charge memory before they reserve it, so that a small file that asks for much is refused before the memory
-/// is gone. One load has one ledger: it cannot be copied, and no importer makes one of its own. What a command reads
-/// beside a loaded scene has a ledger that begins with what that scene takes.
+/// State of one load: import options, the files read, a progress callback, and the memory budget. Importers charge
+/// memory before they allocate it, so that a small file that declares huge sizes is refused early. One load has one
+/// ledger: it cannot be copied, and importers do not make their own. Reads beside a loaded scene use a ledger that
+/// starts with that scene's memory.
 class LoadLedger {
 public:
     /// Without a limit: defaultMemoryLimitBytes().
@@ -42,8 +42,7 @@ public:
     LoadLedger(const LoadLedger&) = delete;
     LoadLedger& operator=(const LoadLedger&) = delete;
 
-    /// Throws MemoryRefused when `bytes` more would exceed the limit; `who` is called for the "file: place" of the
-    /// request.
+    /// Throws MemoryRefused when `bytes` more would exceed the limit; `who` returns the "file: place" of the request.
     template <typename Who>
     void charge(std::uint64_t bytes, Who&& who) {
         if (bytes > limitBytes_ - usedBytes_) refuse(who(), bytes);
@@ -51,21 +50,21 @@ public:
     }
 
     std::uint64_t usedBytes() const { return usedBytes_; }
-    /// Of all charged since usedBytes() was `markBytes`, only `keptBytes` are still there.
+    /// Releases all memory charged since usedBytes() was `markBytes`, except `keptBytes`.
     void settle(std::uint64_t markBytes, std::uint64_t keptBytes) {
         usedBytes_ = std::min(markBytes + keptBytes, limitBytes_);
     }
 
     const ImportWishes& wishes() const { return wishes_; }
-    /// For what a scene file says itself. Who asks for the load goes first, and files before those that they name.
+    /// Sets the variant named by a scene file. The caller's option takes precedence, then outer files over inner ones.
     void wishVariant(std::optional<std::string> variant) { wishes_.variant = std::move(variant); }
 
-    /// Is called, unless it is empty, with the share of a built-in environment's map that is computed, from any thread.
-    /// What it throws ends the load, and is thrown.
+    /// Sets the progress callback, which may be empty: called from any thread with the computed fraction of a built-in
+    /// environment's map. Its exceptions end the load and are rethrown.
     void tellEnvironment(std::function<void(double)> told) { environmentTold_ = std::move(told); }
     const std::function<void(double)>& environmentTold() const { return environmentTold_; }
 
-    /// Flaws of pictures that are repaired, "file: flaw; repair".
+    /// Records a repaired flaw of an image, "file: flaw; repair".
     void warn(std::string text) {
         constexpr std::size_t kMost = 100;
         if (warnings_.size() < kMost) warnings_.push_back(std::move(text));
@@ -85,7 +84,7 @@ private:
     std::function<void(double)> environmentTold_;
 };
 
-/// Bytes that parts of a scene hold.
+/// Memory of parts of a scene, in bytes.
 std::uint64_t bytesOf(const Mesh& mesh);
 std::uint64_t bytesOf(const Shape& shape);
 std::uint64_t bytesOf(const Clip& clip);

@@ -6,13 +6,13 @@
 
 namespace tessera::scenes {
 
-/// World-from-camera of an eye that looks at a target (along its own -Z) with `upWS` pointing up in its picture.
-/// Eye and target must differ; where `upWS` is parallel to the view, another up is taken.
+/// World-from-camera matrix of an eye that looks at a target along the camera's -Z, with `upWS` up in the image. Eye
+/// and target must differ; if `upWS` is parallel to the view, another up vector is used.
 inline glm::dmat4 worldFromLookAt(const glm::dvec3& eyeWS, const glm::dvec3& targetWS,
                                   const glm::dvec3& upWS = glm::dvec3(0.0, 1.0, 0.0)) {
     assert(glm::distance(eyeWS, targetWS) > 0.0);
     const glm::dvec3 backWS = glm::normalize(eyeWS - targetWS);
-    // Below this sine, about 0.06 degrees, the picture's roll would hang on rounding.
+    // Below this sine, about 0.06 degrees, the image's roll would depend on rounding.
     constexpr double kSmallestSine = 1e-3;
     glm::dvec3 rightWS = glm::cross(upWS, backWS);
     if (glm::length(rightWS) < kSmallestSine) {

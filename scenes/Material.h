@@ -14,9 +14,8 @@
 #include "scenes/Subsurface.h"
 #include "scenes/Texture.h"
 
-/// Materials as plain data, their members as a table, and their models as a table. Everything that names a model or one
-/// of its parameters follows the two: scene files, checks, fingerprints, the viewer, the shaders' defines, the
-/// G-buffer's channels.
+/// Material data, with a table of its members and one of its models. All code that handles models or their parameters
+/// uses these tables: scene files, checks, fingerprints, the viewer, the shaders' defines, the G-buffer's channels.
 namespace tessera::scenes {
 
 /// The models of the shading specification; materialModels() lists their parameters.
@@ -32,8 +31,8 @@ enum class MaterialModel : std::uint8_t {
 
 /// The masking-shadowing term G of the microfacet models.
 enum class Masking : std::uint8_t {
-    Walter,      ///< by the angle to the normal; alpha along the microfacet normal where anisotropic (Walter 2007)
-    Directional, ///< of models with two alphas: alpha along the direction itself (Heitz 2014)
+    Walter,      ///< by the angle to the normal; anisotropic: alpha along the microfacet normal (Walter 2007)
+    Directional, ///< anisotropic models only: alpha along the direction itself (Heitz 2014)
     HalfVector,  ///< by the angle to the half vector; gains energy
     Count
 };
@@ -41,10 +40,10 @@ enum class Masking : std::uint8_t {
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 enum class NormalMapSpace : std::uint8_t { Tangent, Object };
 
-/// How tangents are derived for meshes that bring none.
+/// How tangents are derived for meshes without any.
 enum class TangentMethod : std::uint8_t {
-    MikkTSpace, ///< as bakers do and glTF recommends: weighted by angle, split where the texture is mirrored
-    Lengyel     ///< summed over each vertex's triangles, as course notes teach it (Lengyel 2001)
+    MikkTSpace, ///< as in bakers, recommended by glTF: weighted by angle, split where the texture is mirrored
+    Lengyel     ///< summed over each vertex's triangles, as taught in courses (Lengyel 2001)
 };
 
 struct Material {
@@ -70,25 +69,25 @@ struct Material {
     glm::vec3 sheenColor{0.0f};            ///< 0..1
     float sheenPerceptualRoughness = 0.0f; ///< 0..1
     /// KHR_materials_iridescence, metallic_roughness only: a thin film on the surface (docs/iridescence.md).
-    float iridescence = 0.0f;                   ///< 0..1, the film's share
+    float iridescence = 0.0f;                   ///< 0..1, weight of the film
     float iridescenceIor = 1.3f;                ///< at least 1
     float iridescenceThicknessNm = 400.0f;      ///< nanometres; 0: no film
-    float iridescenceLeastThicknessNm = 100.0f; ///< nanometres, where its texture is 0; may be more than the other
+    float iridescenceLeastThicknessNm = 100.0f; ///< nanometres, where its texture is 0; may be the larger one
     /// KHR_materials_transmission, _volume and _dispersion, metallic_roughness only (docs/glass.md).
-    float transmission = 0.0f;              ///< 0..1, the share of what enters that passes
-    float thicknessMetres = 0.0f;           ///< of the body below the surface; 0: a sheet, which bends no light
-    glm::vec3 attenuationColor{1.0f};       ///< 0..1, what is left of white light after the distance
-    float attenuationDistanceMetres = 0.0f; ///< 0: the body absorbs nothing
-    float dispersion = 0.0f;                ///< 20 over the body's Abbe number; 0: all colours bend alike
+    float transmission = 0.0f;              ///< 0..1, transmitted fraction of the light that enters
+    float thicknessMetres = 0.0f;           ///< of the body below the surface; 0: thin-walled, without refraction
+    glm::vec3 attenuationColor{1.0f};       ///< 0..1, colour of white light after the distance
+    float attenuationDistanceMetres = 0.0f; ///< 0: no absorption
+    float dispersion = 0.0f;                ///< 20 / Abbe number of the body; 0: no dispersion
     float normalScale = 1.0f;               ///< scales x and y of a tangent-space normal texel
-    float occlusionStrength = 1.0f;         ///< 0..1, of the occlusion texture: 0 leaves it out
+    float occlusionStrength = 1.0f;         ///< 0..1, strength of the occlusion texture
     NormalMapSpace normalMapSpace = NormalMapSpace::Tangent;
     TangentMethod tangents = TangentMethod::MikkTSpace;
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f; ///< Mask: a fragment stays when opacity >= cutoff
     bool doubleSided = false;
     bool castsShadow = true; ///< from both sides; transparent surfaces cast none (scenes/Shadows.h)
-    Subsurface subsurface;   ///< of lit models
+    Subsurface subsurface;   ///< lit models only
     std::array<TextureUse, kTextureSlotCount> textures;
 
     TextureUse& texture(TextureSlot slot) { return textures[static_cast<std::size_t>(slot)]; }
@@ -98,7 +97,7 @@ struct Material {
 
 // ---- Members -------------------------------------------------------------------------------------------------------
 
-// Beyond any surface, and low enough that no product of these alone leaves fp32.
+// Above any real surface, and low enough that products of these stay within fp32.
 inline constexpr double kMostColor = 1e6;
 inline constexpr double kMostEmission = 1e30;
 inline constexpr double kMostRoughness = 1e6;
@@ -156,7 +155,7 @@ static_assert(std::tuple_size_v<decltype(kMaterialFields)> + 1 == detail::member
 
 // ---- Models --------------------------------------------------------------------------------------------------------
 
-/// A parameter of a model beside its colour.
+/// A parameter of a model besides its colour.
 struct MaterialParameter {
     enum class Kind : std::uint8_t {
         Number,
@@ -169,50 +168,48 @@ struct MaterialParameter {
     const char* key;   ///< of scene files
     const char* label; ///< in the viewer
     std::variant<float Material::*, glm::vec3 Material::*, Masking Material::*> member;
-    TextureSlot slot = TextureSlot::Count; ///< of the texture that scales it; Count: none
-    /// The bounds of the viewer's slider for a number, and the number's format.
+    TextureSlot slot = TextureSlot::Count; ///< slot of the texture that scales it; Count: none
+    /// Bounds and number format of the viewer's slider.
     float leastShown = 0.0f;
     float mostShown = 1.0f;
     const char* format = "%.3f";
 };
 
-/// Which colour a model's highlight has.
+/// Colour of a model's highlight.
 enum class Highlight : std::uint8_t {
     None,
     Tinted,    ///< k_s
     Dielectric ///< F0 of the index of refraction, tinted and scaled (KHR_materials_specular)
 };
 
-/// What the G-buffer's channel microsurface holds of a model beside its number. Another kind than these needs code
-/// where that channel is written and read (shaders/lib/gbuffer/gbuffer_channels.glsl); another model of a kind does
-/// not.
+/// Contents of the G-buffer's microsurface channel, besides the model's index. A new kind needs code where that channel
+/// is written and read (shaders/lib/gbuffer/gbuffer_channels.glsl); a new model of an existing kind does not.
 enum class Microsurface : std::uint8_t {
     None,
-    Parameter,        ///< the one number >= 0 that the model has, by MaterialModelInfo::roughness
+    Parameter,        ///< the model's single parameter >= 0, MaterialModelInfo::roughness
     Dielectric,       ///< GGX alpha, index of refraction and masking-shadowing option
     MetallicRoughness ///< GGX alpha, F90 and metallic
 };
 
-/// Where a model's lobe gets an alpha along the bitangent that differs from the one along the tangent.
+/// Source of a separate alpha along the bitangent.
 enum class Anisotropy : std::uint8_t {
     None,
-    Alphas,  ///< from alphaY, which the R of TextureSlot::Anisotropy scales; masking may be by direction
-    Strength ///< from anisotropyStrength and the texture's direction and B (KHR_materials_anisotropy)
+    Alphas,  ///< alphaY, scaled by R of TextureSlot::Anisotropy; supports Masking::Directional
+    Strength ///< anisotropyStrength, with the texture's direction and B (KHR_materials_anisotropy)
 };
 
 struct MaterialModelInfo {
     MaterialModel model;
-    std::string_view
-        name; ///< of scene files; in capitals that of shaders: MODEL_<NAME> is its number, HAS_<NAME> 0 or 1
+    std::string_view name; ///< in scene files; in capitals in shaders: MODEL_<NAME> is its index, HAS_<NAME> 0 or 1
     bool isLit;
     const char* colorKey; ///< the key of Material::baseColor in scene files
     Highlight highlight = Highlight::None;
     Microsurface microsurface = Microsurface::None;
-    float Material::*roughness = nullptr; ///< the member that the G of TextureSlot::MetallicRoughness scales
+    float Material::*roughness = nullptr; ///< the member scaled by G of TextureSlot::MetallicRoughness
     std::span<const MaterialParameter> parameters{};
     Anisotropy anisotropy = Anisotropy::None;
-    bool hasLayers = false; ///< emission, and those of scenes/MaterialLayers.h: clearcoat, sheen, film, transmission
-    bool isLitFromBehind = false; ///< light from behind the shading normal changes it, as in translucency
+    bool hasLayers = false;       ///< emission, and scenes/MaterialLayers.h: clearcoat, sheen, film, transmission
+    bool isLitFromBehind = false; ///< affected by light from behind the shading normal, e.g. translucency
 
     constexpr bool isMicrofacet() const { return microsurface == Microsurface::Dielectric; }
 };
@@ -224,7 +221,7 @@ inline constexpr MaterialParameter kSpecularColor{Kind::Color, "k_s", "k_s", &Ma
 inline constexpr MaterialParameter kIor{Kind::Ior, "ior", "Index n", &Material::ior, TextureSlot::Ior, 1.0f, 4.0f};
 inline constexpr MaterialParameter kMasking{Kind::Masking, "masking", "Masking", &Material::masking};
 constexpr MaterialParameter alpha(const char* key, const char* label, float Material::*member, TextureSlot slot) {
-    return {Kind::Number, key, label, member, slot, 1e-3f, 1.0f, "%.4f"}; // 1e-3: the shading formulas' own bound
+    return {Kind::Number, key, label, member, slot, 1e-3f, 1.0f, "%.4f"}; // 1e-3: lower bound of the shading formulas
 }
 
 inline constexpr MaterialParameter kBlinnPhong[] = {
@@ -266,7 +263,7 @@ static_assert(isInOrder(), "the table of models follows the enumeration");
 
 inline constexpr std::size_t kMaterialModelCount = detail::kMaterialModels.size();
 
-/// The only list of models; row i is that of model i.
+/// The single table of models, indexed by MaterialModel.
 constexpr std::span<const MaterialModelInfo> materialModels() {
     return detail::kMaterialModels;
 }
@@ -274,46 +271,46 @@ constexpr const MaterialModelInfo& infoOf(MaterialModel model) {
     return detail::kMaterialModels[std::size_t(model)];
 }
 
-/// Whether a model has a masking-shadowing option. Models without the choice ignore it and take all.
+/// Whether a model supports a masking-shadowing option. Models without masking ignore it and accept all.
 constexpr bool takesMasking(MaterialModel model, Masking masking) {
     const MaterialModelInfo& info = infoOf(model);
     return masking != Masking::Directional || !info.isMicrofacet() || info.anisotropy == Anisotropy::Alphas;
 }
 
-/// The film's greatest thickness in nanometres, which its texture may give.
+/// Maximum thickness of the film in nanometres, including its texture's range.
 constexpr float mostFilmThicknessNm(const Material& material) {
     const bool isTextured = material.texture(TextureSlot::IridescenceThickness).image != kNone;
     const float least = material.iridescenceLeastThicknessNm;
     return isTextured && least > material.iridescenceThicknessNm ? least : material.iridescenceThicknessNm;
 }
 
-/// Whether a film may cover surfaces with the material. Textures may have any texel, here as below.
+/// Whether surfaces may have an iridescent film. Texels are not inspected, here and below.
 constexpr bool isIridescent(const Material& material) {
     return infoOf(material.model).hasLayers && material.iridescence > 0.0f && mostFilmThicknessNm(material) > 0.0f;
 }
 
-/// Whether light may pass through surfaces with the material.
+/// Whether surfaces may transmit light.
 constexpr bool isTransmissive(const Material& material) {
     return infoOf(material.model).hasLayers && material.transmission > 0.0f;
 }
 
-/// Whether it has a body below that bends it.
+/// Whether the material has a body that refracts transmitted light.
 constexpr bool hasBody(const Material& material) {
     return isTransmissive(material) && material.thicknessMetres > 0.0f;
 }
 
-/// Whether the body bends each colour by another angle.
+/// Whether the body refracts each colour by another angle.
 constexpr bool disperses(const Material& material) {
     return hasBody(material) && material.dispersion > 0.0f;
 }
 
-/// Whether they are drawn on top of what lies behind them, from far to near.
+/// Whether surfaces are blended over those behind them, from far to near.
 constexpr bool isTransparent(const Material& material) {
     return material.alphaMode == AlphaMode::Blend || isTransmissive(material);
 }
 
-/// How light that enters a surface with the material leaves it elsewhere. A method that would change nothing is none,
-/// and so is any where light passes through or a film covers the surface.
+/// Effective subsurface method of a material under a request. None if the method would have no effect, and for unlit,
+/// transmissive or iridescent materials.
 inline SubsurfaceMethod subsurfaceOf(const Material& material, SubsurfaceRequest request) {
     const Subsurface& subsurface = material.subsurface;
     if (!infoOf(material.model).isLit || subsurface.method == SubsurfaceMethod::None || isTransmissive(material) ||
@@ -324,7 +321,7 @@ inline SubsurfaceMethod subsurfaceOf(const Material& material, SubsurfaceRequest
     return infoOf(method).wraps && !wraps ? SubsurfaceMethod::None : method;
 }
 
-/// Whether a material's lobe turns with the tangent.
+/// Whether the specular lobe depends on the tangent.
 constexpr bool isAnisotropic(const Material& material) {
     const Anisotropy anisotropy = infoOf(material.model).anisotropy;
     return anisotropy == Anisotropy::Alphas ||

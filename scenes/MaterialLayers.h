@@ -5,19 +5,19 @@
 
 #include "scenes/Material.h"
 
-/// The layers of materials (MaterialModelInfo::hasLayers) as scene files spell them: a table that their reader and
-/// their writer follow. Bounds are those of kMaterialFields.
+/// Keys of material layers (MaterialModelInfo::hasLayers) in scene files: a table for reader and writer. Bounds are
+/// those of kMaterialFields.
 namespace tessera::scenes {
 
 struct LayerParameter {
     const char* key;
     std::variant<float Material::*, glm::vec3 Material::*> member;
-    TextureSlot slot = TextureSlot::Count; ///< of the texture that scales it; Count: none
-    /// The key is the texture's, the number its scale; neither is there without a texture.
+    TextureSlot slot = TextureSlot::Count; ///< slot of the texture that scales it; Count: none
+    /// The key holds a texture, and the member its scale; omitted without a texture.
     bool isNormalMap = false;
 };
 
-/// In the order of scene files. The first parameter is the layer's strength: where it is 0, nothing is written.
+/// Parameters in the order of scene files. The first is the layer's strength: if it is 0, nothing is written.
 using MaterialLayer = std::span<const LayerParameter>;
 
 namespace detail {

@@ -15,8 +15,8 @@
 namespace tessera::scenes {
 namespace {
 
-/// Every node's transform into the space of the node that skinned meshes stand below, of those that are in one: there
-/// joints and meshes meet. Elsewhere into the world.
+/// By node: its transform into the space of the nearest ancestor that is the parent of a skinned mesh, where joints and
+/// meshes meet; without such an ancestor into the world.
 std::vector<glm::dmat4x3> modelFromNodes(const Scene& scene) {
     std::vector<bool> holdsModel(scene.nodes.size());
     for (const Deformed& deformed : scene.rig.deformed) {
@@ -36,7 +36,7 @@ std::vector<glm::dmat4x3> modelFromNodes(const Scene& scene) {
 void deformAll(Scene& scene, const Pose& pose) {
     if (scene.rig.deformed.empty()) return;
     const std::vector<glm::dmat4x3> modelFromNode = modelFromNodes(scene);
-    std::vector<std::vector<glm::dmat4x3>> fromBind(scene.rig.skins.size()); // by skin and joint, where one was needed
+    std::vector<std::vector<glm::dmat4x3>> fromBind(scene.rig.skins.size()); // by skin and joint, filled on demand
     for (const Deformed& deformed : scene.rig.deformed) {
         const Shape& shape = scene.rig.shapes[std::size_t(deformed.shape)];
         Mesh& mesh = scene.meshes[std::size_t(deformed.mesh)];
@@ -69,7 +69,7 @@ void deformAll(Scene& scene, const Pose& pose) {
     }
 }
 
-/// Lets no inner cone be wider than its outer one. What the pose says of the outer one counts where it says both.
+/// Keeps inner cones within outer ones. If the pose sets both, the outer one stays.
 void clampInnerCones(Scene& scene, const Pose& pose) {
     for (const AnimatedProperty cone : {AnimatedProperty::LightInnerCone, AnimatedProperty::LightOuterCone})
         for (std::size_t i = 0; i < scene.rig.numbers.size(); ++i) {
@@ -83,7 +83,7 @@ void clampInnerCones(Scene& scene, const Pose& pose) {
         }
 }
 
-/// Lets every far plane lie beyond the near one.
+/// Keeps far planes beyond near ones.
 void separatePlanes(Scene& scene, const Pose& pose) {
     for (std::size_t i = 0; i < scene.rig.numbers.size(); ++i) {
         const RestNumber& rest = scene.rig.numbers[i];

@@ -17,7 +17,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// RGBA of fp32.
+/// Converts sRGB texels to linear RGBA in fp32.
 template <typename Code>
 std::vector<std::byte> linearTexels(const Image& image) {
     std::array<float, std::size_t{std::numeric_limits<Code>::max()} + 1> linear{};
@@ -33,7 +33,7 @@ std::vector<std::byte> linearTexels(const Image& image) {
     return texels;
 }
 
-/// The same picture in linear fp32. Pictures of whole numbers are taken as sRGB, which they are meant for.
+/// Converts an image to linear fp32. Integer formats are assumed to be sRGB.
 Image asFloat(Image image, LoadLedger& ledger) {
     if (image.format == TexelFormat::Rgba32Float) return image;
     ledger.charge(std::uint64_t(image.width) * std::uint64_t(image.height) * texelBytes(TexelFormat::Rgba32Float),
@@ -88,7 +88,7 @@ Replaced replaceNoLight(Image& map) {
 RadianceMap readRadianceMap(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     RadianceMap map;
-    Image image = readPicture(file, ledger).image; // its colours are radiance, whatever alpha is
+    Image image = readPicture(file, ledger).image; // its RGB is radiance, whatever its alpha
     image.name = file.filename().string();
     map.hasFewBits = image.format != TexelFormat::Rgba32Float;
     map.image = asFloat(std::move(image), ledger);

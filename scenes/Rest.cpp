@@ -9,12 +9,12 @@
 namespace tessera::scenes {
 namespace {
 
-/// What it is by itself, which keeps to its bounds.
+/// Writes a rest value, which already lies within its bounds.
 void setRest(auto& owner, const RestNumber& rest) {
     setMember(owner, infoOf(rest.property).member, rest.number, [](auto, double value) { return value; });
 }
 
-/// Calls `use` for each number at rest that a clip which plays changes, where what has it is still there.
+/// Calls `use` for each rest value that an active clip changes, if its element still exists.
 void forEachPlayed(const Rig& rig, const auto& use) {
     std::vector<bool> isPlayed(rig.numbers.size());
     for (const int playing : rig.playing)

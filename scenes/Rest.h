@@ -4,28 +4,28 @@
 
 #include "scenes/Scene.h"
 
-/// The numbers at rest (Rig::numbers), which a scene has where no clip that plays changes them.
+/// Rest values (Rig::numbers): a scene's values while no active clip animates them.
 namespace tessera::scenes {
 
-/// Takes the scene's present numbers as those at rest, of all that clips may change. To be called before a clip is
-/// posed: a scene file may say other numbers than the model that its clips come from.
+/// Stores the scene's current values as rest values of everything that clips can change. Call it before a clip is
+/// posed: a scene file may override values of the model that its clips come from.
 void takeRest(Scene& scene);
 
-/// The scene's materials, with the numbers at rest in place of those that clips which play change.
+/// The scene's materials, with rest values in place of those that active clips change.
 std::vector<Material> restingMaterials(const Scene& scene);
 
-/// The same of one of them.
+/// The same for one material.
 Material restingMaterial(const Scene& scene, std::size_t index);
-/// What an edit of a posed material makes of it at rest: a number that a clip which plays changes stays at rest where
-/// the edit leaves it alone.
+/// Converts an edited posed material to its rest state: values that active clips change keep their rest value unless
+/// edited.
 Material editedAtRest(const Scene& scene, std::size_t index, Material edited);
-/// Puts a material in the place of another, and takes its numbers as those at rest. The scene then holds it as the
-/// clips that play pose it at that time.
+/// Replaces a material and stores its values as rest values. The scene then holds it as posed by the active clips at
+/// `timeSeconds`.
 void replaceMaterial(Scene& scene, std::size_t index, Material resting, double timeSeconds);
 
-/// Puts all numbers that clips which play change to rest.
+/// Restores the rest values of everything that active clips change.
 void restPlayed(Scene& scene);
-/// Puts all numbers of lights that clips may change to rest.
+/// Restores the rest values of all lights.
 void restLights(Scene& scene);
 
 } // namespace tessera::scenes

@@ -7,14 +7,14 @@ namespace tessera::scenes {
 
 namespace {
 
-/// Lets cameras stay as they are.
+/// Detaches all cameras from the rig.
 void leaveCameras(Rig& rig) {
     rig.cameras.clear();
     for (RestNumber& rest : rig.numbers)
         if (infoOf(rest.property).owner == AnimatedOwner::Camera) rest.element = kNone;
 }
 
-/// The links with every light given another number, or kNone where it has left.
+/// Renumbers the lights of the links; kNone: the light was removed.
 template <typename NumberAfter>
 LightLinks renumbered(LightLinks links, const NumberAfter& numberAfter) {
     for (Carried& carried : links.carried) carried.element = numberAfter(carried.element);

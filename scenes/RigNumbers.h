@@ -6,10 +6,10 @@
 
 #include "scenes/Scene.h"
 
-/// Where the numbers are that clips change, for scenes/Pose.cpp and scenes/Rest.cpp.
+/// Access to the values that clips change, for scenes/Pose.cpp and scenes/Rest.cpp.
 namespace tessera::scenes {
 
-/// Writes numbers into a member of `owner` if it has that member, each component by way of `bounded`.
+/// Writes a value into a member of `owner` if it has that member; `bounded` clamps each component.
 template <typename Owner>
 void setMember(Owner& owner, const AnimatedMember& member, const glm::dvec4& number, const auto& bounded) {
     std::visit(
@@ -27,8 +27,8 @@ void setMember(Owner& owner, const AnimatedMember& member, const glm::dvec4& num
         member);
 }
 
-/// What a clip says. Splines go past their keys; a member that has bounds stays within them, and no other number of a
-/// light or material is negative.
+/// Writes an animated value. Splines overshoot their keys, so values are clamped to the member's bounds; lights and
+/// materials have no other negative values.
 template <typename Owner>
 void setPosed(Owner& owner, const AnimatedPropertyInfo& info, const glm::dvec4& number) {
     setMember(owner, info.member, number, [&](auto member, double value) {
@@ -44,7 +44,7 @@ void setPosed(Owner& owner, const AnimatedPropertyInfo& info, const glm::dvec4& 
     });
 }
 
-/// Calls `use` with what of a material has a number at rest: the material, or its use of a texture.
+/// Calls `use` with the part of a material that has a rest value: the material itself, or a texture's transform.
 void usePartOf(auto& material, const RestNumber& rest, const auto& use) {
     if (rest.slot == TextureSlot::Count)
         use(material);
@@ -52,7 +52,7 @@ void usePartOf(auto& material, const RestNumber& rest, const auto& use) {
         use(material.texture(rest.slot).transform);
 }
 
-/// Calls `use` with the part of a scene that a number at rest, of an element that is there, belongs to.
+/// Calls `use` with the part of a scene that has a rest value; its element must still exist.
 void useOwner(auto& scene, const RestNumber& rest, const auto& use) {
     const auto element = std::size_t(rest.element);
     switch (infoOf(rest.property).owner) {
@@ -65,7 +65,7 @@ void useOwner(auto& scene, const RestNumber& rest, const auto& use) {
         return use(scene.cameras[element]);
     case AnimatedOwner::Node:
     case AnimatedOwner::Weights:
-        return; // have lists of their own
+        return; // not in Rig::numbers
     }
 }
 

@@ -46,7 +46,7 @@ Box3 worldBounds(const Scene& scene) {
     Box3 boundsWS;
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
         for (const MeshInstance& instance : scene.nodes[n].instances) {
-            // Only vertices that a triangle uses are drawn.
+            // Vertices that no triangle uses are not drawn.
             const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
             for (const std::uint32_t index : mesh.indices) {
                 boundsWS.extend(glm::dvec3(worldFromNode[n] * glm::dvec4(glm::dvec3(mesh.positionsOS[index]), 1.0)));

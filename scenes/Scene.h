@@ -21,9 +21,9 @@
 #include "scenes/Material.h"
 #include "scenes/Mesh.h"
 
-/// A scene as plain data, as its author wrote it: nothing here is packed for a GPU and nothing is derived that a
-/// renderer could derive (tangents, culling radii, cone scales). World space is right-handed, Y up, metres; colours are
-/// linear unless a texture slot says otherwise. Indices are -1 where something is absent.
+/// Scene data as authored: nothing is packed for a GPU, and nothing is stored that a renderer can derive (tangents,
+/// culling radii, cone scales). World space is right-handed, Y up, metres; colours are linear unless a texture slot
+/// says otherwise. Absent indices are -1.
 namespace tessera::scenes {
 
 // ---- Geometry ------------------------------------------------------------------------------------------------------
@@ -42,10 +42,10 @@ struct Box3 {
 struct MeshInstance {
     int mesh = kNone;
     int material = kNone;
-    bool castsShadow = true; ///< as long as its material does too
+    bool castsShadow = true; ///< only if its material does too
 };
 
-/// Transform hierarchy; a parent always stands before its children.
+/// A node of the transform hierarchy; parents precede their children.
 struct Node {
     std::string name;
     int parent = kNone;
@@ -55,49 +55,48 @@ struct Node {
 
 // ---- Lights --------------------------------------------------------------------------------------------------------
 
-/// The factor of the intensity at `timeSeconds`, a function of nothing else, so that times can be asked for in any
-/// order: 1 + amplitude / 4 * sum over k in {17, 29, 43, 64} of sin(2 pi (k frequency t / 64 + phase_k)), with phases
-/// of the seed. Its mean over 64 / frequency seconds, after which it repeats, is 1.
+/// Stateless factor of the intensity, so that times can be evaluated in any order: 1 + amplitude / 4 * sum over k in
+/// {17, 29, 43, 64} of sin(2 pi (k frequency t / 64 + phase_k)), with phases derived from the seed. It repeats after 64
+/// / frequency seconds; its mean is 1.
 double flickerAt(const LightFlicker& flicker, double timeSeconds);
 
-/// Whether a light is not the same at all times.
+/// Whether a light changes over time.
 bool movesByItself(const Light& light);
 
 /// Whether a path's points are not all in one place.
 bool hasLength(const LightAnimation& path);
 
-/// Whether there are keyframes of a member but the position.
+/// Whether the light has keyframes of a member other than the position.
 bool hasKeys(const Light& light, LightKeyed of);
 
-/// Gives a member a value, x of a number, within the bounds of its field: splines go past their keys.
+/// Sets a member, scalars to x, clamped to the bounds of its field: splines overshoot their keys.
 void setKeyed(Light& light, LightKeyed member, const glm::dvec3& value);
 
-/// The light as it is at `timeSeconds`: its animation applied to its position, its keyframes to what they are of, its
-/// flicker to its intensity.
+/// The light at `timeSeconds`, with its animation, keyframes and flicker applied.
 Light lightAtTime(const Light& light, double timeSeconds);
 
 // ---- Options, scene -------------------------------------------------------------------------------------------------
 
-/// The value that a scene asks for of a setting, as its file has it.
+/// A setting's value as requested in a scene's file.
 using Wish = std::variant<bool, double, std::string, std::vector<double>>;
 
-/// What a scene asks for where the user does not say otherwise.
+/// Options requested by a scene, which the user's options override.
 struct SceneOptions {
     std::optional<std::string> camera;
-    std::optional<std::string> clip;                 ///< as playClip() takes it; none: the first of each model plays
-    std::optional<bool> defaultLight;                ///< false: where there is no light, none is supplied
-    std::map<std::string, Wish, std::less<>> wishes; ///< by the settings' keys (engine::settingTable())
+    std::optional<std::string> clip;                 ///< as in playClip(); none: the first of each model is active
+    std::optional<bool> defaultLight;                ///< false: supply no light if the scene has none
+    std::map<std::string, Wish, std::less<>> wishes; ///< requested settings, by key (engine::settingTable())
     bool operator==(const SceneOptions&) const = default;
 };
 
-/// What a scene is given that its file lacks, or that was asked for in the place of its own (scenes/Defaults.h).
+/// Supplied defaults for what a scene's file lacks, or on request in place of its own (scenes/Defaults.h).
 struct Supplied {
     bool camera = false, light = false;
-    double fillShare = 0.0;       ///< of the supplied light's brightness, beside lights of the scene's own
-    bool replacesCameras = false; ///< the camera stands in the place of the scene's own
-    int exposureEV = 0;           ///< whole stops, where its lights are much too bright or too dim for a display
-    bool isInside = false;        ///< the camera stands within the scene, which surrounds it (scenes/Enclosure.h)
-    std::set<std::string> wishes; ///< keys of SceneOptions::wishes that no file asked for
+    double fillShare = 0.0;       ///< fraction of a full studio's intensity, if it complements the scene's own lights
+    bool replacesCameras = false; ///< the supplied camera replaces the scene's own
+    int exposureEV = 0;           ///< whole stops, if its lights are much too bright or too dim for a display
+    bool isInside = false;        ///< the supplied camera is inside the scene, which surrounds it (scenes/Enclosure.h)
+    std::set<std::string> wishes; ///< keys of SceneOptions::wishes that no file requested
     bool operator==(const Supplied&) const = default;
 };
 
@@ -109,19 +108,18 @@ struct Scene {
     std::vector<Node> nodes;
     std::vector<Light> lights; ///< in document order: glTF depth first, then those of the .json
     std::vector<Camera> cameras;
-    Rig rig; ///< empty where nothing moves and nothing is skinned or morphed
+    Rig rig; ///< empty if nothing moves and nothing is skinned or morphed
     std::optional<Environment> environment;
     std::optional<Hook> hook;
-    glm::vec3 background{0.0f}; ///< radiance where nothing is drawn and no environment is shown, linear
+    glm::vec3 background{0.0f}; ///< linear radiance where nothing is drawn and no environment is displayed
     SceneOptions options;
     Supplied supplied;
-    std::vector<std::string> variants; ///< names that ImportWishes::variant may have, of all models, once each
-    std::vector<std::string> notes; ///< what the importer chose, where a reader may want to know, and nothing is lost
-    std::vector<std::string> warnings; ///< what the importer left out, each naming the feature
+    std::vector<std::string> variants; ///< unique names of all material variants (ImportWishes::variant)
+    std::vector<std::string> notes;    ///< importer choices that are worth knowing but lose nothing
+    std::vector<std::string> warnings; ///< what the importer left out or changed, each naming the feature
 };
 
-/// The camera that a name chooses, else a number counted from 0: an included file may bring a camera of a name that is
-/// there already. None where there is no such camera.
+/// Finds a camera by name, else by number from 0; included files may repeat names. None if there is no such camera.
 std::optional<std::size_t> cameraCalled(const Scene& scene, std::string_view nameOrNumber);
 
 /// World-from-node of every node, in double precision.
@@ -130,20 +128,20 @@ std::vector<glm::dmat4> worldFromNodes(const Scene& scene);
 /// World bounds of everything drawn; empty() when nothing is.
 Box3 worldBounds(const Scene& scene);
 
-/// Triangles drawn, instances counted each.
+/// Number of triangles drawn, counting each instance.
 std::size_t triangleCount(const Scene& scene);
 
-/// The meshes drawn with a material that the hook of a scene that has one changes.
+/// Indices of the meshes drawn with a material of the scene's hook. The scene must have a hook.
 std::set<std::size_t> hookedMeshes(const Scene& scene);
 
-/// Throws InputError unless everything drawn lies within kFarthestMetres of the origin, and the lights and cameras that
-/// nodes carry do: the part of checkScene() that a pose may break.
+/// Throws InputError unless everything drawn and all lights and cameras attached to nodes lie within kFarthestMetres of
+/// the origin: the part of checkScene() that a pose may violate.
 void checkPlaces(const Scene& scene);
 
 /// Throws InputError unless every index is in range, every attribute has its mesh's length and every number is finite
-/// (a light's infinite range and a camera's infinite far plane excepted). The text names the scene and the element.
+/// (a light's infinite range and a camera's infinite far plane excepted). The message names the scene and the element.
 void checkScene(const Scene& scene);
-/// The same of an environment that is to become a scene's.
+/// The same for an environment that a scene is about to use.
 void checkEnvironment(const Scene& scene, const Environment& environment);
 
 } // namespace tessera::scenes

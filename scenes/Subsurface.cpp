@@ -17,7 +17,7 @@ std::span<const NamedProfile> namedProfiles() {
           {0.567f, {0.113f, 0.007f, 0.007f}},
           {1.99f, {0.358f, 0.004f, 0.0f}},
           {7.41f, {0.078f, 0.0f, 0.0f}}}},
-        // tools/fit_profile.py marble: with three digits within 2.8, 1.6 and 1.3 % of the dipole
+        // From tools/fit_profile.py marble; with three digits it is within 2.8, 1.6 and 1.3 % of the dipole
         // (NamedProfiles.marbleIsNearTheDipole).
         {"marble",
          {{0.03f, {0.031f, 0.067f, 0.110f}},

@@ -13,8 +13,8 @@
 #include "base/EnumTable.h"
 #include "scenes/Fields.h"
 
-/// Light that enters a surface and leaves it elsewhere: a property of materials, its members as a table, its methods as
-/// a table, and the profiles that have names (docs/skin.md).
+/// Subsurface scattering as a property of materials: tables of its members and methods, and named profiles
+/// (docs/skin.md).
 namespace tessera::scenes {
 
 enum class SubsurfaceMethod : std::uint8_t { None, Wrap, DepthMap, TextureSpaceDiffusion, Count };
@@ -23,9 +23,9 @@ struct SubsurfaceMethodInfo {
     SubsurfaceMethod method;
     std::string_view name; ///< of scene files and options
     std::string_view summary;
-    bool wraps = false;   ///< lights below the horizon reach the surface
-    bool passes = false;  ///< light from behind passes through the body
-    bool spreads = false; ///< light leaves the surface beside where it enters
+    bool wraps = false;   ///< lights below the horizon illuminate the surface
+    bool passes = false;  ///< light from behind is transmitted through the body
+    bool spreads = false; ///< irradiance is diffused over the surface
 };
 inline constexpr std::array kSubsurfaceMethods{
     SubsurfaceMethodInfo{SubsurfaceMethod::None, "none", "light leaves where it enters"},
@@ -35,7 +35,7 @@ inline constexpr std::array kSubsurfaceMethods{
                          .name = "depth_map",
                          .summary = "light from behind passes through thin parts",
                          .passes = true},
-    // Light that passes through spreads over the other side too.
+    // Transmitted light is diffused over the far side too.
     SubsurfaceMethodInfo{.method = SubsurfaceMethod::TextureSpaceDiffusion,
                          .name = "texture_space_diffusion",
                          .summary = "light spreads over the surface",
@@ -50,49 +50,49 @@ constexpr const SubsurfaceMethodInfo& infoOf(SubsurfaceMethod method) {
     return kSubsurfaceMethods[std::size_t(method)];
 }
 
-/// Which method surfaces take: that of their materials, or this one where those have any.
+/// Overrides the method of all materials that have one; none: each keeps its own.
 using SubsurfaceRequest = std::optional<SubsurfaceMethod>;
 
 /// One term of a diffusion profile: weight exp(-r^2 / (2 v)) / (2 pi v) at the distance r.
 struct DiffusionGaussian {
     float varianceSquareMillimetres = 1.0f;
-    glm::vec3 weight{1.0f}; ///< by channel; those of a profile sum to 1 in each
+    glm::vec3 weight{1.0f}; ///< by channel; the weights of a profile sum to 1 in each
     bool operator==(const DiffusionGaussian&) const = default;
 };
 using DiffusionProfile = std::vector<DiffusionGaussian>;
 inline constexpr std::size_t kMostGaussians = 8;
-/// How far sums of weights may be from 1: published weights have three digits.
+/// Tolerance of the weights' sum: published weights have three digits.
 inline constexpr double kProfileSumTolerance = 2e-3;
 
 struct NamedProfile {
     std::string_view name; ///< of scene files
     DiffusionProfile profile;
 };
-/// `skin` first.
+/// All named profiles, `skin` first.
 std::span<const NamedProfile> namedProfiles();
 
 struct Subsurface {
     SubsurfaceMethod method = SubsurfaceMethod::None;
-    float scaleMetres = 1.0f;              ///< metres of the real thing that a metre of the scene stands for
-    float wrap = 0.5f;                     ///< 0..1: minus the cosine at which wrapped light ends, where the tint is 1
+    float scaleMetres = 1.0f;              ///< real metres per metre of the scene
+    float wrap = 0.5f;                     ///< 0..1: negative cosine at which wrapped light ends, if the tint is 1
     glm::vec3 wrapTint{1.0f, 0.4f, 0.25f}; ///< 0..1, by channel
-    /// Of the body that wrapped light goes round, in the scene's metres; 0: half the smallest side of what has the
-    /// material.
+    /// Radius, in the scene's metres, that lifts shadow rays of wrapped light off the surface; 0: half the smallest
+    /// side of the geometry with the material.
     float bodyRadiusMetres = 0.0f;
-    /// Of light that passes through, by channel. The default is neither measured nor published: an ear of 3 mm passes a
-    /// third of red light, 4 % of green and 0.3 % of blue.
+    /// Absorption of transmitted light, by channel. The default is neither measured nor published: an ear of 3 mm
+    /// transmits a third of red light, 4 % of green and 0.3 % of blue.
     glm::vec3 absorptionPerMillimetre{0.35f, 1.1f, 1.9f};
-    float preScatterShare = 0.5f; ///< 0..1: the power of the albedo before light spreads; the rest is after
-    DiffusionProfile profile;     ///< none: `skin`, which scenes with many materials need not hold for each
+    float preScatterShare = 0.5f; ///< 0..1: exponent of the albedo before diffusion; the rest is applied after
+    DiffusionProfile profile;     ///< none: `skin`, which scenes with many materials need not store for each
     bool operator==(const Subsurface&) const = default;
 };
 
-/// Its own, or `skin`.
+/// The profile of a subsurface: its own, or `skin` if it has none.
 const DiffusionProfile& profileOf(const Subsurface& subsurface);
 
 // A millionth of a metre to a thousand kilometres: beyond any model.
 inline constexpr double kLeastScaleMetres = 1e-6, kMostScaleMetres = 1e6;
-inline constexpr double kMostBodyRadiusMetres = 1e6; // shadow rays begin up to about so far off the surface
+inline constexpr double kMostBodyRadiusMetres = 1e6; // shadow rays start up to about this far off the surface
 inline constexpr double kMostAbsorption = 1e6;
 inline constexpr double kMostVariance = 1e12; // a kilometre wide
 
@@ -112,7 +112,7 @@ inline constexpr std::tuple kSubsurfaceFields{
 static_assert(std::tuple_size_v<decltype(kSubsurfaceFields)> == detail::memberCount<Subsurface>(),
               "kSubsurfaceFields lacks a member of Subsurface");
 
-/// What is wrong with a profile that is given, and what to do; empty: nothing.
+/// Describes a profile's fault with the remedy; empty if there is none.
 std::string profileProblem(const DiffusionProfile& profile);
 
 } // namespace tessera::scenes

@@ -8,7 +8,7 @@
 
 #include "base/EnumTable.h"
 
-/// How a material uses pictures.
+/// Use of images by materials: samplers, transforms and slots.
 namespace tessera::scenes {
 
 inline constexpr int kNone = -1;
@@ -31,12 +31,11 @@ struct Sampler {
     bool operator==(const Sampler&) const = default;
 };
 
-/// The most of a texture coordinate and of an animated offset or scale: products stay finite in single precision.
+/// Maximum of texture coordinates and of animated offsets and scales: products stay finite in fp32.
 inline constexpr double kMostTextureNumber = double(std::uint64_t{1} << 55);
 
 /// Applied to a texture coordinate as offset + rotation(scale * uv), after KHR_texture_transform (v points down, the
-/// origin is the picture's top-left corner, a positive angle turns the coordinates counter-clockwise in that
-/// convention).
+/// origin is the image's top-left corner, a positive angle turns the coordinates counter-clockwise in that convention).
 struct TextureTransform {
     glm::vec2 offset{0.0f};
     glm::vec2 scale{1.0f};
@@ -44,7 +43,7 @@ struct TextureTransform {
     bool operator==(const TextureTransform&) const = default;
 };
 
-/// A texture as a material uses it; `image` is kNone when the slot is empty, and then the factor alone counts.
+/// A material's use of a texture; `image` is kNone if the slot is empty, and then the factor alone counts.
 struct TextureUse {
     int image = kNone;
     Sampler sampler;
@@ -53,8 +52,8 @@ struct TextureUse {
     bool operator==(const TextureUse&) const = default;
 };
 
-/// Where a material may carry a texture. Every value is factor x texel; the channels used and the transfer function. In
-/// order of importance: where a stage of the driver samples too few textures, the last are left out first
+/// Texture slots of a material, with the channels used and their transfer function. Every value is factor x texel.
+/// Slots are in order of importance: if a shader stage supports too few textures, the last ones are dropped first
 /// (leaveOutTextures() of renderer/frame/TextureRoom.h).
 enum class TextureSlot : std::uint8_t {
     BaseColor,          ///< RGB base colour, k_d or the unlit colour (sRGB); A opacity
@@ -67,27 +66,26 @@ enum class TextureSlot : std::uint8_t {
     Ior,                ///< R index of refraction (linear)
     Anisotropy,         ///< RG direction in tangent space as 2 x texel - 1, B strength (metallic_roughness);
                         ///< R alpha_y (microfacet_anisotropic) (linear)
-    Clearcoat,          ///< R share of the coat (linear)
+    Clearcoat,          ///< R weight of the coat (linear)
     ClearcoatRoughness, ///< G perceptual roughness of the coat (linear)
     ClearcoatNormal,    ///< RGB normal of the coat, tangent space (linear)
     SheenColor,         ///< RGB (sRGB)
     SheenRoughness,     ///< A perceptual roughness of the sheen (linear)
-    Occlusion,          ///< R share of the environment's light that arrives (linear)
-    Transmission,       ///< R share of what enters that passes (linear)
-    Thickness,          ///< G thickness of the body, as a share of the material's (linear)
-    Iridescence,        ///< R share of the film (linear)
-    IridescenceThickness, ///< G thickness of the film, from the least at 0 to that of the material at 1 (linear)
+    Occlusion,          ///< R unoccluded fraction of the environment's light (linear)
+    Transmission,       ///< R transmitted fraction of the light that enters (linear)
+    Thickness,          ///< G thickness of the body, as a fraction of the material's (linear)
+    Iridescence,        ///< R weight of the film (linear)
+    IridescenceThickness, ///< G thickness of the film, from the material's least at 0 to its thickness at 1 (linear)
     Count
 };
 inline constexpr std::size_t kTextureSlotCount = static_cast<std::size_t>(TextureSlot::Count);
 
 struct TextureSlotInfo {
     TextureSlot slot;
-    std::string_view
-        name; ///< in capitals that of shaders: TEXTURE_SLOT_<NAME> is its number, HAS_<NAME>_TEXTURE 0 or 1
+    std::string_view name; ///< in capitals in shaders: TEXTURE_SLOT_<NAME> is its index, HAS_<NAME>_TEXTURE 0 or 1
     std::string_view what; ///< in plans
     bool isSrgb = false;   ///< its texels are sRGB-encoded colours
-    bool isNormal = false; ///< it changes nothing of a surface but a direction
+    bool isNormal = false; ///< it only changes a normal
 };
 
 inline constexpr std::array kTextureSlots{

@@ -21,7 +21,7 @@ void averageLargeImages(Scene& scene, const std::string& source, LoadLedger& led
     for (const Material& material : scene.materials)
         for (std::size_t slot = 0; slot < kTextureSlotCount; ++slot) {
             const auto image = std::size_t(material.textures[slot].image);
-            if (image >= uses.size()) continue; // none, or one that checkScene() refuses
+            if (image >= uses.size()) continue; // none, or one that checkScene() rejects
             uses[image].isTexture = true;
             uses[image].isSrgb |= infoOf(TextureSlot(slot)).isSrgb;
         }
@@ -42,7 +42,7 @@ void averageLargeImages(Scene& scene, const std::string& source, LoadLedger& led
 
 using TexCoords = std::array<std::vector<glm::vec2>, 2>;
 
-/// Whether a coordinate exceeded the bound. Infinity and NaN stay, which checkScene() refuses.
+/// Clamps texture coordinates; returns whether any changed. Infinity and NaN stay; checkScene() rejects them.
 bool clampCoordinates(TexCoords& texCoords) {
     constexpr auto kMost = float(kMostTextureNumber);
     bool isChanged = false;
@@ -56,7 +56,7 @@ bool clampCoordinates(TexCoords& texCoords) {
     return isChanged;
 }
 
-/// The greatest coordinates of each set.
+/// Maximum absolute coordinates of each set.
 using Reach = std::array<glm::dvec2, 2>;
 
 Reach reachOf(const TexCoords& texCoords) {
@@ -66,8 +66,8 @@ Reach reachOf(const TexCoords& texCoords) {
     return reach;
 }
 
-/// Texels that a texture's coordinates name must be counted by whole numbers of 32 bits. Where they exceed 2^30, they
-/// are brought within 2^10, where all renderers find the same ones. Whether the image changes.
+/// Keeps texel indices within 32 bits: coordinates beyond +-2^29 texels are scaled to +-2^10, where all renderers find
+/// the same ones, and offsets beyond it are wrapped or clamped. Returns whether the image changes.
 bool keepPlaces(TextureUse& use, const Image& image, const Reach& reach) {
     constexpr double kMostTexels = 1 << 29, kKeptTexels = 1 << 10;
     TextureTransform& transform = use.transform;
@@ -79,7 +79,7 @@ bool keepPlaces(TextureUse& use, const Image& image, const Reach& reach) {
     for (int i = 0; i < 2; ++i) {
         float& offset = transform.offset[i];
         if (!(std::abs(double(offset)) * side > kMostTexels)) continue;
-        // Nothing moves: mirrored textures repeat after 2, and clamped ones show the edge as before.
+        // The image does not change: mirrored textures repeat after 2, and clamped ones still show their edge.
         const bool isClamped = (i == 0 ? use.sampler.wrapU : use.sampler.wrapV) == Wrap::ClampToEdge;
         offset = isClamped ? std::copysign(float(kMostTexels / side), offset) : std::fmod(offset, 2.0f);
     }
@@ -95,7 +95,7 @@ void keepTexturePlaces(Scene& scene, const std::string& source, Repairs& repairs
         ofMeshes.push_back(reachOf(mesh.texCoords));
     }
     for (Shape& shape : scene.rig.shapes) {
-        clampCoordinates(shape.rest.texCoords); // its mesh has the same
+        clampCoordinates(shape.rest.texCoords); // the same as of its mesh
         for (MorphTarget& target : shape.targets) clampCoordinates(target.texCoords);
     }
     const auto hasTexture = [](const Material& material) {

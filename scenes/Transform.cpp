@@ -8,7 +8,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// Scales the axis by a power of two, so that its largest component is from 1 to 2. Nested scales can make squares
+/// Scales the axis by a power of two, so that its largest component is from 1 to 2: nested scales can make squares
 /// overflow. Zero stays zero.
 glm::dvec3 aboutOne(const glm::dvec4& axis) {
     const glm::dvec3 size = glm::abs(glm::dvec3(axis));
@@ -30,7 +30,7 @@ glm::dmat4 transformOf(const glm::dvec3& translation, const glm::dvec4& rotation
 }
 
 glm::dmat3 cofactorOf(glm::dmat3 matrix) {
-    // Products of its entries neither overflow nor vanish.
+    // Scaled, so that products of its entries neither overflow nor underflow.
     double largest = 0.0;
     for (glm::length_t i = 0; i < 9; ++i) largest = std::max(largest, std::abs(matrix[i / 3][i % 3]));
     if (largest > 0.0) matrix /= largest;

@@ -4,7 +4,7 @@
 
 namespace tessera::shaders {
 
-/// The text of a shader file compiled into the library, by its path below shaders/; none when there is no such file.
+/// Returns the source of an embedded shader file by its path below shaders/; std::nullopt if there is none.
 std::optional<std::string_view> embeddedShader(std::string_view path);
 
 } // namespace tessera::shaders

@@ -25,7 +25,7 @@ def light(name, type_, position, target, colour, intensity, cones, radius):
             "castsShadow": True, **({"target": target, "innerDegrees": cones[0], "outerDegrees": cones[1]} if cones else {})}
 
 
-# The lights of head and head_skin, with a radius: the outlines of shadows on faces are soft.
+# The lights of head and head_skin, with a radius, so that shadows on faces have soft edges.
 FACE = [0, 0.56, 0]
 SKIN_LIGHTS = [light("key", "spot", [-0.95, 1.05, 1.1], FACE, [1, 0.9, 0.78], 3.4, (12, 26), 0.08),
                light("back", "spot", [0.62, 0.78, -0.8], FACE, [1, 0.84, 0.66], 4.5, (12, 24), 0.05),
@@ -85,7 +85,7 @@ def draw(name, program, folder):
                 file.write_text(json.dumps(scene))
                 scene = str(file)
             picture = scratch / f"{number}.png"
-            # The reference takes as long as it has pixels.
+            # The time of the reference is proportional to its pixels.
             factor = 1 if "reference" in options else 2
             size = f"{factor * width}x{factor * height}"
             subprocess.run([program, "render", scene, "-o", picture, "--size", size, *options], check=True)

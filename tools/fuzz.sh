@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Feeds broken files to every reader (tests/fuzz). Usage: ./test --fuzz SECONDS [TARGET...]
-# The seconds are spread over the targets. Ends with exit code 1 at the first finding, and says where its input lies.
-# Inputs that reach new code are kept in build/fuzz/corpus, and are where the next run begins.
+# The seconds are divided among the targets. Exits with code 1 at the first finding, and prints the folder of its input.
+# Inputs that reach new code are kept in build/fuzz/corpus, from which the next run starts.
 set -euo pipefail
 root=$(cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/.." && pwd)
 source "$root/tools/setup.sh"
@@ -13,7 +13,7 @@ shift
 ensurePackages build test fuzz
 buildPreset fuzz fuzz
 
-# What inputs are made of: the words of tables and the string literals of sources, as they are and as strings of JSON.
+# Dictionary of inputs: the words of tables and the string literals of sources, plain and as JSON strings.
 words() {
     local table=$1
     shift

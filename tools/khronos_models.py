@@ -45,7 +45,7 @@ import zlib
 
 RIGHT, APPROXIMATE, REFUSED, CRASHED, NOTHING = "right", "approximate", "refused", "crashed", "nothing to draw"
 
-# What of an extension is drawn. One that is not here is left out, with a warning of the program.
+# How each extension is drawn. Others are left out, with a warning of the program.
 EXTENSIONS = {
     "EXT_lights_image_based": (RIGHT, "filtered anew from its sharpest faces"),
     "EXT_mesh_gpu_instancing": (RIGHT, ""),
@@ -77,19 +77,19 @@ EXTENSIONS = {
     "KHR_xmp_json_ld": (RIGHT, "words about the model"),
 }
 SUPPLIED_CAMERA = "by the supplied camera"
-FROM_INSIDE = "seen from inside " + SUPPLIED_CAMERA  # it frames nothing then
-DEFAULT_CAMERA = "--default-camera"  # in the place of the model's own
+FROM_INSIDE = "seen from inside " + SUPPLIED_CAMERA  # then there is no framing to judge
+DEFAULT_CAMERA = "--default-camera"  # instead of the model's cameras
 NO_TRIANGLES = "the scene has no triangles to draw"
 BAD_INPUT = 2  # the program's exit code for files that it refuses
-MOST_SECONDS = 900  # that a picture may take
+MOST_SECONDS = 900  # limit per image
 BLACK = 0.02  # mean luminance after the exposure that the program chooses: a fifth of the studio's brightest walls
-# Radiance of the brightest and of the darkest channel that khronos_neutral shows as 0.02 and 0.98 of the code values.
+# Radiance that khronos_neutral maps to 0.02 of the code values (brightest channel) and to 0.98 (darkest channel).
 DARK, BURNT = 0.0157, 1.87
-MOST_LOST = 0.5  # of the covered pixels that are either
-LEAST_SPAN = 0.55  # of the picture's width or height, by what the supplied camera is to frame
-MOMENTS = 4  # after the first, at which a model that moves is looked at
+MOST_LOST = 0.5  # fraction of the covered pixels that are either
+LEAST_SPAN = 0.55  # least fraction of the image's width or height to span in the supplied camera
+MOMENTS = 4  # times after the first at which an animated model is rendered
 BEGIN, END = "<!-- made by tools/khronos_models.py: begin -->", "<!-- made by tools/khronos_models.py: end -->"
-# The same model in another container; the first that is there is shown.
+# Containers of the same model; the first existing one is rendered.
 CONTAINERS = ("", "glTF", "glTF-Binary", "glTF-Embedded")
 
 
@@ -112,7 +112,7 @@ def models_below(folder, left_out=()):
         name = place[-1] if place and place[-1].startswith(stem) else stem
         if name in models:
             name = "/".join((*place, stem))
-        name = name.encode("utf-8", "backslashreplace").decode()  # names of files may be no text
+        name = name.encode("utf-8", "backslashreplace").decode()  # file names may be invalid text
         if not any(fnmatch.fnmatch(name, pattern) for pattern in left_out):
             models[name] = min(files)[1]
     return models
@@ -175,11 +175,11 @@ def status_of(extensions, code, lines):
 
 # ---- Figures -------------------------------------------------------------------------------------------------------
 
-# Of what a model covers: mean luminance in the picture that is shown; in those by the supplied camera, over all
-# moments, the larger share of the picture's sides that it spans, and whether it touches the edge; and whether the one
-# that is shown is by the supplied camera; shares of the covered pixels that are black and burnt in what is shown.
+# Figures of the covered pixels: mean luminance in the shown image; by the supplied camera, over all times, the larger
+# fraction of the image's sides that they span, and whether they touch the edge; whether the shown image is by the
+# supplied camera; fractions of black and burnt pixels in the shown image.
 Figures = collections.namedtuple("Figures", "luminance span is_cut is_supplied dark burnt", defaults=(0.0, 0.0))
-# figures is None where there is no picture; whether it is known that there is one.
+# figures: None without an image; is_expected: the expected table lists the model as drawn.
 Row = collections.namedtuple("Row", "name status why figures is_expected", defaults=(False,))
 
 
@@ -200,7 +200,7 @@ def figures_of(shown, framed, is_supplied):
     return Figures(shown.luminance(), span, is_cut, is_supplied, *shown.lost())
 
 
-# Why a model fails, by the name in the totals.
+# Reasons why a model fails, by the name in the totals.
 FAULTS = {
     "crashed": lambda row: row.status == CRASHED,
     "black": lambda row: is_drawn(row) and not row.figures.luminance >= BLACK,
@@ -397,7 +397,7 @@ LETTERS = {
     "U": "3f4040403f", "V": "1f2040201f", "W": "3f4038403f", "X": "6314081463", "Y": "0708700807",
     "Z": "6151494543",
 }  # fmt: skip
-LINE = 12  # pixels of a name below its picture
+LINE = 12  # pixels of a name below its image
 
 
 def sheet_of(pictures, size, columns=6):
@@ -455,7 +455,7 @@ def render(program, path, picture, size, *more):
     lines = []
     for line in done.stderr.splitlines():
         line = line.strip()
-        if line.startswith("tessera: note: "):  # of what the machine keeps, not of the model
+        if line.startswith("tessera: note: "):  # about the machine's cache, not the model
             continue
         line = line.replace(str(path.parent) + "/", "")
         for prefix in ("tessera: ", "error: ", "warning: ", f"{path.stem}: ", f"{path.name}: "):
@@ -519,7 +519,7 @@ def main(arguments):
     if not shutil.which(str(options.program)):
         parser.error(f"{options.program} is no program; build it with ./run scenes, or name another with --program")
     if options.document:
-        with_table(options.document.read_text(encoding="utf-8"), "")  # before all the work
+        with_table(options.document.read_text(encoding="utf-8"), "")  # fails before the work starts
     expected = drawn_in(options.expect.read_text(encoding="utf-8")) if options.expect else set()
     if options.expect and not expected:
         parser.error(f"{options.expect} holds no table in which a model is drawn")

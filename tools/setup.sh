@@ -1,6 +1,6 @@
-# Sourced by ./run and ./test: brings the machine's packages and the build up to date, silently when they are.
+# Sourced by ./run and ./test: brings the machine's packages and the build up to date, silently if they already are.
 # shellcheck shell=bash disable=SC2154 # `root` comes from the caller
-# Expects `root`, the repository's root. Everything said here goes to stderr; stdout belongs to the program.
+# Expects `root`, the repository's root. All output goes to stderr; stdout belongs to the program.
 
 packageTable=$root/tools/packages.txt
 
@@ -9,23 +9,23 @@ fail() {
     exit 1
 }
 
-# Packages of the given sets of the table, one a line.
+# Packages of the given sets of the table, one per line.
 packagesOf() {
     awk -v sets=" $* " '!/^#/ && index(sets, " " $2 " ") { print $1 }' "$packageTable"
 }
 
-# Of the packages named on stdin, those that are not installed.
+# The packages named on stdin that are not installed.
 missingPackages() {
     local wanted
     wanted=$(cat)
-    # dpkg-query fails when it does not know a package at all: that one is missing too.
+    # dpkg-query fails for an unknown package, which is missing too.
     # shellcheck disable=SC2086 # one word a package
     { dpkg-query --show --showformat='${db:Status-Status} ${Package}\n' $wanted 2>/dev/null || true; } |
         awk -v wanted="$wanted" '$1 == "installed" { have[$2] = 1 }
             END { n = split(wanted, names, /[ \n]+/); for (i = 1; i <= n; i++) if (!(names[i] in have)) print names[i] }'
 }
 
-# Runs a command silently; when it fails, shows what it said.
+# Runs a command silently; prints its output if it fails.
 quietly() {
     local log
     log=$(mktemp)
@@ -47,8 +47,8 @@ aptGet() {
     "${elevate[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=120 "$@"
 }
 
-# ensurePackages SETS...: installs what the table lists and the machine lacks. The answer is kept, because dpkg-query
-# takes longer than a finished build does.
+# ensurePackages SETS...: installs missing packages of the table's sets. A stamp file keeps the result, because
+# dpkg-query takes longer than a finished build.
 ensurePackages() {
     local sets=$* stamp
     stamp=$root/build/.packages-${sets// /-}-$(cksum <"$packageTable" | tr ' ' '-')
@@ -65,7 +65,7 @@ ensurePackages() {
     missing=${missing% }
     if [ -n "$missing" ]; then
         echo "Installing Debian packages: $missing" >&2
-        # sudo asks for the password here, before what it runs is silenced.
+        # sudo asks for the password here, before its output is silenced.
         if [ "$(id -u)" -ne 0 ] && ! { command -v sudo >/dev/null && sudo -v; }; then
             fail "That needs root: apt-get install --no-install-recommends $missing"
         fi
@@ -79,7 +79,7 @@ ensurePackages() {
     : >"$stamp"
 }
 
-# Shows how far ninja is, from its output on stdin: one changing line on a terminal, one line elsewhere, nothing when
+# Shows ninja's progress from its output on stdin: one changing line on a terminal, one line elsewhere, nothing if
 # nothing is built.
 showProgress() {
     local line said=
@@ -100,13 +100,13 @@ showProgress() {
     if [ -n "$said" ] && [ -t 2 ]; then printf '\r\033[K' >&2; fi
 }
 
-# buildPreset PRESET TARGET...: configures when there is no build yet (ninja sees to later changes) and builds.
+# buildPreset PRESET TARGET...: configures if there is no build yet (ninja handles later changes) and builds.
 buildPreset() {
     local preset=$1 dir=$root/build/$1 log=$root/build/$1.log
     shift
     mkdir -p "$dir"
     (
-        # Two builds of one folder at a time would spoil it.
+        # Two concurrent builds would corrupt the folder.
         ! command -v flock >/dev/null || flock 9
         if [ ! -e "$dir/build.ninja" ]; then
             echo "Configuring Tessera (preset $preset)" >&2

@@ -17,13 +17,13 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kKeepSeconds = 3.0; ///< at rest, after which edits are kept in a file
-/// Between writings of that file, for the time that the latest took: they take a twentieth of the time at most.
+constexpr double kKeepSeconds = 3.0; ///< of idle time, after which edits are autosaved
+/// Pause between autosaves, relative to the duration of the latest: they take a twentieth of the time at most.
 constexpr double kKeepShare = 20.0;
-constexpr double kFailedKeepSeconds = 60.0; ///< until it is tried again
-constexpr double kSettingsSeconds = 2.0;    ///< after which settings are looked at again
+constexpr double kFailedKeepSeconds = 60.0; ///< before a failed autosave is retried
+constexpr double kSettingsSeconds = 2.0;    ///< between checks for changed settings
 
-/// Beside the settings.
+/// Next to the preferences file.
 std::optional<std::filesystem::path> recoveryFolder(const ViewerOptions& options) {
     if (!options.preferencesFile) return std::nullopt;
     return options.preferencesFile->parent_path() / "recovery";
@@ -57,7 +57,7 @@ bool Document::isLeaving() {
     return false;
 }
 
-/// Edits that are not saved are left behind only by an answer.
+/// Unsaved edits are discarded only after the user has confirmed it.
 bool Document::mayLeave(const Question& question) {
     if (!hasEdits()) return true;
     state_.question = question;
@@ -87,14 +87,14 @@ void Document::takeDrops() {
     if (!state_.notice.isError) state_.notice = {.text = std::move(dropped.left), .outlivesLoad = true};
 }
 
-/// Reads the open scene again, since its materials and pictures are others. Edits go on there.
+/// Reloads the open scene with other materials and textures, and carries its edits over.
 void Document::openVariant(const std::string& variant) {
     if (!state_.open) return;
     load(state_.open->source(), variant);
     keepsEdits_ = true;
 }
 
-/// Opens a scene in the place of this one, with its edits until then; or this one again, in a variant.
+/// Starts loading a scene, or a variant of the open one, and notes the edit count to detect edits made meanwhile.
 void Document::load(const std::string& source, const std::optional<std::string>& variant) {
     editsLeft_ = state_.open ? state_.open->edits() : 0;
     loadingVariant_ = variant;
@@ -116,9 +116,9 @@ void Document::take(Answer answer) {
         recovering_ = question->scene;
         return load(recovering_);
     }
-    if (answer == Answer::Keep && !saveScene()) return; // where that fails nothing else happens
+    if (answer == Answer::Keep && !saveScene()) return; // if saving fails, nothing else happens
     if (question->about == Question::About::Opening) {
-        const bool isVariant = question->variant && state_.open; // of what was saved just now
+        const bool isVariant = question->variant && state_.open; // of the scene that was just saved
         return load(isVariant ? state_.open->source() : question->scene, question->variant);
     }
     isDiscarding_ = true;
@@ -129,7 +129,7 @@ void Document::adoptLoaded() {
     const scenes::Scene* const loaded = scenes_.scene();
     const bool goesOn = keepsEdits_ && loaded != nullptr && state_.open && state_.open->source() == state_.loading &&
                         state_.open->canGoOnAs(*loaded);
-    // The user was not asked about edits made during the load, nor about a variant's.
+    // No dialog has covered edits made during the load, nor edits that a variant cannot keep.
     const bool isUnasked = state_.open && (keepsEdits_ || state_.open->edits() != editsLeft_);
     if (loaded != nullptr && isUnasked && !goesOn &&
         !mayLeave({Question::About::Opening, state_.loading, loadingVariant_}))
@@ -140,8 +140,8 @@ void Document::adoptLoaded() {
     drawing_.resume();
     facts_.shadows = {};
     state_.timings.clear();
-    if (!goesOn) environments_.discard(); // it was chosen for the scene before
-    // What was asked about the edits of the scene before is settled.
+    if (!goesOn) environments_.discard(); // it was chosen for the previous scene
+    // A pending question about the previous scene's edits is obsolete.
     if (state_.question && state_.question->about != Question::About::Recovering) state_.question.reset();
     try {
         if (goesOn) scene->goOnFrom(*state_.open);
@@ -154,7 +154,7 @@ void Document::adoptLoaded() {
     state_.viewEnvironmentBy(state_.open->environmentView());
 }
 
-/// Edits that were left are now this window's, and still not saved.
+/// The recovered edits now belong to this window and still count as unsaved.
 void Document::adoptRecovered(OpenScene& scene) {
     if (std::exchange(recovering_, {}) != scene.source()) return;
     scene.markUnsaved();
@@ -229,7 +229,7 @@ void Document::askWhereToSave(const std::filesystem::path& path, const std::stri
     log_.line("asks where to save");
 }
 
-/// Asks for another name where no file can be written under this one.
+/// Opens the dialog for another name if this path is not writable.
 bool Document::mayWrite(const std::string& path) {
     try {
         requireWritable(path);
@@ -240,7 +240,7 @@ bool Document::mayWrite(const std::string& path) {
     }
 }
 
-/// A variant that is being loaded would go on with what the scene was until now: it is loaded of the file.
+/// Restarts the load of a variant from the new file: it was based on the scene's previous file.
 void Document::writeScene(const std::string& path) {
     saver_.scene(path);
     if (keepsEdits_ && !state_.loading.empty()) openVariant(*loadingVariant_);

@@ -17,8 +17,8 @@
 
 namespace tessera::viewer {
 
-/// The open scene as the window's document: what comes in its place, where it is saved, what is asked about edits that
-/// are not saved, and where those are kept for the case that the program ends unasked.
+/// The open scene as the window's document: loads and saves scenes, confirms the loss of unsaved edits, and autosaves
+/// them in case the program ends unexpectedly.
 class Document {
 public:
     struct Parts {
@@ -33,65 +33,65 @@ public:
         Saver& saver;
         Measurements& measurements;
     };
-    /// `fail` is told of faults that keep nothing from going on.
+    /// `fail` receives non-fatal errors.
     Document(const Parts& parts, std::function<void(const std::string&)> fail);
 
-    /// Opens the first scene, and asks about edits that a run before left.
+    /// Opens the first scene, and offers to recover edits left by an earlier run.
     void begin();
 
-    // ---- Another scene ----
-    /// Of files that were dropped on the window one is to be opened, and the user is told of the others.
+    // ---- Opening ----
+    /// Opens one of the files dropped on the window, and reports the others to the user.
     void takeDrops();
-    /// These may ask first; a variant only where edits cannot go on in it.
+    /// These may first ask about unsaved edits; a variant only if it cannot keep them.
     void open(const std::string& source);
-    /// A file that was dropped or chosen. Of what is no file that the viewer knows, loading tells why.
+    /// Opens a dropped or chosen file. Loading reports unknown file types.
     void openFile(const std::string& file);
     void openVariant(const std::string& variant);
     void take(Answer answer);
-    /// For the scene that is open. Throws where there is none.
+    /// Loads an environment for the open scene. Throws std::runtime_error without one.
     void chooseEnvironment(const std::string& name);
-    /// What was chosen and is not there yet; empty: nothing.
+    /// The chosen environment while it is loading; empty: none.
     std::string loadingEnvironment() const { return environments_.choice(); }
     void cancelEnvironment();
-    /// Something is loaded on another thread.
+    /// Whether anything is being loaded on another thread.
     bool isLoading() const { return !state_.loading.empty() || !environments_.choice().empty(); }
-    /// How far that is.
+    /// Progress of that load.
     std::optional<Progress> loadingProgress() const;
-    /// Whether a scene or an environment waits for the next two.
+    /// Whether a loaded scene or environment waits for the next two functions.
     bool hasResult() const { return scenes_.hasResult() || environments_.hasResult(); }
-    /// Throw what loading throws.
+    /// Both throw what loading throws.
     void adoptLoaded();
     void adoptEnvironment();
-    /// The title says which scene is open, and whether it has edits that were not saved.
+    /// Shows the open scene's name in the window title, with * for unsaved edits.
     void nameWindow();
 
     // ---- Files ----
-    /// Opens the dialog of files.
+    /// Opens the file dialog.
     void askWhatToOpen();
-    /// With a reason: the folder of the path cannot be written, so another is proposed.
+    /// Opens the save dialog. With a reason, the path's folder is not writable and the home folder is proposed.
     void askWhereToSave(const std::filesystem::path& path, const std::string& reason = {});
-    /// These ask for another name where no file can be written under theirs. Whether it was saved, under a free name.
+    /// These ask for another name if the path is not writable. saveScene() uses a free name; returns whether it saved.
     bool saveScene();
     void savePicture(glm::ivec2 size, const char* ending);
     void saveAs(const std::string& path, glm::ivec2 size);
-    /// Puts the command that renders the picture on the clipboard. It draws a file, so edits are saved before.
+    /// Copies the command that renders the image to the clipboard. It renders a file, so edits are saved first.
     void copyCommand(glm::ivec2 size);
 
-    // ---- Edits that are not saved ----
+    // ---- Unsaved edits ----
     bool hasEdits() const { return state_.open && state_.open->isEdited(); }
-    /// When keepEdits() has something to do, in seconds of Window::nowSeconds().
+    /// When keepEdits() is due, in seconds of Window::nowSeconds(); none: nothing to save.
     std::optional<double> keepAt() const;
-    /// Keeps them for the case that the program ends unasked; while nobody waits for a picture, and not too often.
+    /// Autosaves edits in case the program ends unexpectedly; only while the image is idle, and not too often.
     void keepEdits();
-    /// The same of settings and recent files.
+    /// Likewise saves settings and recent files.
     void keepSettings();
 
-    // ---- The end ----
-    /// Whether the window closes. May ask instead.
+    // ---- Closing ----
+    /// Whether the window closes now. May ask about unsaved edits instead.
     bool isLeaving();
-    /// All that is to be kept is saved.
+    /// Normal end: saves settings, and deletes the autosave.
     void close();
-    /// The program ends, and nobody can be asked any more: what close() saves, and edits that are not saved.
+    /// End without questions: saves settings, and autosaves unsaved edits.
     void endWithEdits();
 
 private:
@@ -113,15 +113,15 @@ private:
     Measurements& measurements_;
     std::function<void(const std::string&)> fail_;
     std::string title_;
-    std::string recovering_; ///< the file of edits that is being opened
+    std::string recovering_; ///< recovery file that is being opened
     double nextKeepAt_ = 0.0, nextSettingsAt_ = 0.0;
     bool isDiscarding_ = false;                 ///< the window closes without another question
-    std::uint64_t editsLeft_ = 0;               ///< of the open scene, when the one that is loading was asked for
-    std::optional<std::string> loadingVariant_; ///< of load()
-    bool keepsEdits_ = false;                   ///< what is loading is to go on with the edits of the open scene
+    std::uint64_t editsLeft_ = 0;               ///< edits of the open scene when the current load began
+    std::optional<std::string> loadingVariant_; ///< argument of load()
+    bool keepsEdits_ = false;                   ///< the current load carries over the edits of the open scene
     Recovery recovery_;
     EnvironmentJob environments_;
-    SceneSwitch scenes_; ///< last: its thread ends before what it wakes
+    SceneSwitch scenes_; ///< declared last: its thread ends before the other members
 };
 
 } // namespace tessera::viewer

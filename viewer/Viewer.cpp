@@ -36,12 +36,12 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kShaderPeriodSeconds = 0.5; ///< how often the shader folder and a hook are looked at
-constexpr double kLongestStepSeconds = 0.25; ///< of movements: a compile in between is no reason to fly away
+constexpr double kShaderPeriodSeconds = 0.5; ///< between checks of the shader folder and of a hook
+constexpr double kLongestStepSeconds = 0.25; ///< longest time step of movements, so that a compile pause causes no jump
 constexpr double kNoticeSeconds = 6.0;
-constexpr double kBackgroundSeconds = 0.25; ///< between what is told of a load
-constexpr double kHurrySeconds = 0.05;      ///< between pictures while input waits
-constexpr double kEndPeriodSeconds = 0.25;  ///< how often a signal to end is looked for
+constexpr double kBackgroundSeconds = 0.25; ///< between progress updates of a load
+constexpr double kHurrySeconds = 0.05;      ///< between images while input is pending
+constexpr double kEndPeriodSeconds = 0.25;  ///< between checks for a signal to end
 
 glm::ivec2 windowSize(const ViewerOptions& options) {
     if (!options.pictureSize) return options.windowSize;
@@ -66,7 +66,7 @@ public:
     ~Viewer() { holdEnd(false); }
 
     void run() {
-        // What a signal ends at once would lose settings, recent files and edits.
+        // Defers signals to end: an immediate end would lose settings, recent files and edits.
         holdEnd(true);
         try {
             while (!document_.isLeaving()) {
@@ -94,7 +94,7 @@ private:
                inspector_.awaitsRest() || outline_.awaitsRest() || capture_.awaitsRest();
     }
     double glidesFrom() const { return Gliding{window_.isButtonHeld(), isMoving(state_), facts_.ms, shownAt_}.from(); }
-    /// A minimised window shows nothing; a pending picture waits.
+    /// A minimised window shows nothing; a pending image waits.
     bool isVisible() const {
         const glm::ivec2 pixels = window_.sizePixels();
         return !window_.isMinimised() && pixels.x > 0 && pixels.y > 0;
@@ -109,7 +109,7 @@ private:
         return hasPicturePlace() &&
                (isMoving(state_) || inspector_.isBusy() || (awaitsRest() && now() >= pulse_.restAt));
     }
-    /// How long nothing needs to happen; a signal, which ends no wait for events, is looked for at least as often.
+    /// Time until the next frame or check, at most kEndPeriodSeconds: a signal does not end the wait for events.
     double idleSeconds() const {
         if (isDue() || notedEnd() != 0) return 0.0;
         double seconds = kEndPeriodSeconds;
@@ -123,14 +123,14 @@ private:
         return seconds;
     }
 
-    // ---- What takes long ----
+    // ---- Long operations ----
     void noteBackground() {
         facts_.background = document_.loadingProgress();
         backgroundToldAt_ = now() + kBackgroundSeconds;
     }
     bool isCancellable() const { return facts_.told() && facts_.told()->canCancel; }
     void cancel() { facts_.isLoadFirst() ? document_.cancelEnvironment() : drawing_.cancel(); }
-    /// In the middle of a picture that takes long.
+    /// Shows progress in the middle of a long draw.
     void tellProgress() {
         const gpu::BetweenBands between;
         noteBackground();
@@ -145,7 +145,7 @@ private:
         endAsNoted();
     }
 
-    /// What goes wrong is shown, and the window goes on.
+    /// Runs an action. Its error is shown in the window, which continues.
     template <class Action>
     void attempt(const Action& act) {
         try {
@@ -193,13 +193,13 @@ private:
             if (!state_.notice.isError) state_.notice = {std::move(fault), false};
         }
         document_.takeDrops();
-        if (!isVisible()) return; // input waits, so that no key that is let go is missed
+        if (!isVisible()) return; // input stays queued, so that no key release is lost
         layOut();
         const std::vector<InputEvent> events = window_.input().takeFrame(state_.keysWait());
         for (const InputEvent& event : events)
             if (!heardAt_) heardAt_ = event.heardSeconds;
         learnLetters();
-        state_.isCancellable = isCancellable(); // by what the window says
+        state_.isCancellable = isCancellable(); // according to the progress box on screen
         noteBackground();
         gui_.beginFrame(events);
         controls_.handle(events, state_, area_, {gui_.wantsMouse(), gui_.wantsKeyboard()});
@@ -212,12 +212,12 @@ private:
         document_.nameWindow();
         advance(started);
         expireNotice();
-        // More input waits: its result gets a picture, its single steps only now and then.
+        // More input is pending: its result gets an image, intermediate steps only every kHurrySeconds.
         if (!window_.input().empty() && started - shownAt_ < kHurrySeconds) return;
         const int givenUp = drawing_.givenUp();
         const gpu::Rectangle place = areaPixels();
         const bool drew = drawing_.update({place.width, place.height});
-        // The frame that answers the input begins at once. This one heard of none, so it has nothing new to show.
+        // The next frame, which processes the pending input, begins at once. This one has nothing new to show.
         if (drawing_.gaveUpAtRest()) return;
         attempt([this] {
             if (screen_.renderer() &&
@@ -260,12 +260,12 @@ private:
         show();
         drawing_.setDescribed(!drew);
         if (facts_.isPreparing || facts_.isSpreading || drawing_.givenUp() > givenUp)
-            return; // the picture that answers is yet to come
+            return; // the image that answers the input is still to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
     }
 
-    /// Names of files and in scenes may be of any language.
+    /// Adds glyphs for names of files and in scenes, which may be in any language.
     void learnLetters() {
         const TextVisitor learn = [this](std::string_view text) { gui_.learn(text); };
         visitShownText(state_, learn);
@@ -275,7 +275,7 @@ private:
         learned_ = now;
     }
 
-    /// Screen coordinates, the units of the user interface, for one of a display of usual density.
+    /// Screen coordinates per unit of the user interface; 1 on a display of standard density.
     float uiScale() const { return gui_.scale(); }
 
     void layOut() {
@@ -283,10 +283,10 @@ private:
         state_.pictureAspect = area_.size.y > 0.0f ? double(area_.size.x) / double(area_.size.y) : 1.0;
     }
 
-    /// The picture's place in pixels, from the lower left.
+    /// The viewport in pixels, from the lower left.
     gpu::Rectangle areaPixels() const { return inPixels(area_.corner, area_.size); }
 
-    /// A part of the window, given in screen coordinates from the upper left.
+    /// Converts a rectangle of the window from screen coordinates, counted from the upper left, to pixels.
     gpu::Rectangle inPixels(const glm::vec2& cornerScreen, const glm::vec2& sizeScreen) const {
         const glm::vec2 density = glm::vec2(window_.sizePixels()) / glm::max(glm::vec2(window_.sizeScreen()), 1.0f);
         const glm::ivec2 corner = glm::round(cornerScreen * density);
@@ -374,12 +374,12 @@ private:
         });
     }
 
-    /// Messages disappear after a while, errors when they are dismissed.
+    /// Removes messages after a while. Errors stay until dismissed.
     void expireNotice() {
         if (state_.notice.text != said_) {
             said_ = state_.notice.text;
             saidUntil_ = now() + kNoticeSeconds;
-            pulse_.settle(); // it is laid out anew
+            pulse_.settle(); // its layout has changed
         } else if (isNoticeOver()) {
             state_.notice = {};
             pulse_.another();
@@ -397,14 +397,14 @@ private:
         shownAt_ = now();
     }
 
-    /// The pictures, and the interface as it was laid out last.
+    /// Draws the images, and the interface with its latest layout.
     void paint() {
         const glm::ivec2 pixels = window_.sizePixels();
         screen_.show(pixels, areaPixels(), state_.compare, state_.divider, state_.magnification);
         if (const std::optional<glm::vec2> place = state_.inspectedPlace()) {
             for (const Loupe& loupe : state_.loupes)
                 screen_.magnify(loupe.side, *place, inPixels(loupe.corner, glm::vec2(loupe.size)));
-            gpu::bindWindowFramebuffer(pixels.x, pixels.y); // without the scissor
+            gpu::bindWindowFramebuffer(pixels.x, pixels.y); // disables the scissor test
         }
         gui_.draw();
     }
@@ -419,17 +419,17 @@ private:
     Window window_;
     Gui gui_;
     State state_;
-    Screen screen_; ///< after the state, whose scene it draws
+    Screen screen_; ///< declared after the state: destroyed before the scene it draws
     Controls controls_;
     Facts facts_;
     PictureArea area_;
     Pulse pulse_;
     double lastFrame_ = 0.0;
     double shownAt_ = 0.0;
-    std::optional<double> heardAt_; ///< of the oldest input of which nothing was shown yet
+    std::optional<double> heardAt_; ///< arrival time of the oldest input whose result is not yet shown
     double nextShaderLook_ = 0.0;
-    double backgroundToldAt_ = 0.0;                    ///< when it is told next how far that is
-    std::pair<const OpenScene*, std::string> learned_; ///< the scene whose letters are known, and its file
+    double backgroundToldAt_ = 0.0;                    ///< when load progress is shown next
+    std::pair<const OpenScene*, std::string> learned_; ///< the scene whose glyphs are loaded, and its file
     std::string said_;                                 ///< the latest notice
     double saidUntil_ = 0.0;
     PictureDrawing drawing_;
@@ -439,7 +439,7 @@ private:
     MaterialOutline outline_;
     ResourceCapture capture_;
     SceneThumbnails thumbnails_;
-    Document document_; ///< last: its threads end before what they wake
+    Document document_; ///< declared last: its threads end before the window that they wake
 };
 
 } // namespace

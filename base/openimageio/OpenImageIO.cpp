@@ -12,8 +12,8 @@
 namespace tessera {
 namespace {
 
-/// The bytes of the file. OpenImageIO 2.4's own pread() reads what lies before them for an offset below 0, as broken
-/// tables of offsets hold.
+/// A file in memory with checked offsets. OpenImageIO 2.4's pread() reads before the buffer for negative offsets, which
+/// broken offset tables contain.
 class FileInMemory : public OIIO::Filesystem::IOMemReader {
 public:
     explicit FileInMemory(std::span<const std::byte> bytes) : IOMemReader(bytes.data(), bytes.size()), bytes_(bytes) {}
@@ -54,7 +54,7 @@ PictureHeader headerOf(const OIIO::ImageSpec& spec) {
     header.isFloatingPoint = spec.format.is_floating_point();
     header.channelNames = spec.channelnames;
     header.alphaChannel = spec.alpha_channel;
-    // Readers that hand over colours without alpha, as open() asks for, state that they did.
+    // Readers that return unassociated alpha, as open() requests, report that they did.
     header.isAssociated = spec.alpha_channel >= 0 && spec.get_int_attribute("oiio:UnassociatedAlpha", 0) == 0;
     header.orientation = spec.get_int_attribute("Orientation", 1);
     header.software = spec.get_string_attribute("Software");
@@ -62,7 +62,7 @@ PictureHeader headerOf(const OIIO::ImageSpec& spec) {
     return header;
 }
 
-/// What OpenImageIO says, to stand within a message.
+/// OpenImageIO's message without final punctuation, to embed in another.
 std::string reasonOf(const std::string& text) {
     return text.substr(0, text.find_last_not_of(" .\r\n") + 1);
 }
@@ -80,12 +80,12 @@ public:
     }
 
     bool open(PictureHeader& header) override {
-        // Alpha is coverage or opacity, and colours are meant without it. Some readers multiply nevertheless.
+        // Requests colours that are not premultiplied by alpha. Some readers premultiply nevertheless.
         OIIO::ImageSpec config, spec;
         config.attribute("oiio:UnassociatedAlpha", 1);
         if (!input_->open(fmt::format("picture.{}", format_), spec, config)) return false;
         header = headerOf(spec);
-        // Positions in TIFF files count inches or centimetres, and OpenImageIO returns them as texels.
+        // Not for TIFF, whose positions in inches or centimetres OpenImageIO returns as texels.
         if (format_ == "openexr") {
             header.left = std::int64_t{spec.x} - spec.full_x;
             header.top = std::int64_t{spec.y} - spec.full_y;
@@ -105,7 +105,7 @@ private:
     }
 
     std::string format_;
-    FileInMemory file_; ///< before the reader, which asks for it until it ends
+    FileInMemory file_; ///< declared before the reader, which uses it until destroyed
     std::unique_ptr<OIIO::ImageInput> input_;
 };
 
@@ -139,7 +139,7 @@ public:
         spec.attribute("oiio:ColorSpace", "Linear");
         spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), chromaticities);
         spec.attribute("Software", kPictureSoftware);
-        spec.attribute("DateTime", ""); // else the time of writing is added, and equal pictures give unequal files
+        spec.attribute("DateTime", ""); // else the time of writing is added, and equal images give unequal files
         return encode("exr", spec, rgba);
     }
 

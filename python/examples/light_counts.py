@@ -30,7 +30,7 @@ def main():
         for count in map(int, counts or [16, 64, 256]):
             scene = tessera.load(name, lights=count, size=(320, 180))
             results = [millisecondsOf(scene, technique) for technique in TECHNIQUES]
-            # Techniques agree, so the last one's picture is that of all.
+            # All techniques render the same image, so the last one's mean stands for all.
             row = [count, *(round(ms, 2) for ms, _ in results), float(results[-1][1].rgb.mean())]
             table.writerow(row)
             print(*row, sep="\t")

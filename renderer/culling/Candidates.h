@@ -7,16 +7,16 @@
 
 namespace tessera::culling {
 
-/// Lights that may touch a part of the view, in ascending order, laid out for testing many at once.
+/// Candidate lights of a part of the view, in ascending order, stored as arrays so that tests vectorise.
 class Candidates {
 public:
-    /// All of `lights` named in `indices`.
+    /// Sets the candidates to lights[i] for each i in `indices`.
     void assign(std::span<const std::uint32_t> indices, std::span<const shared::CullLight> lights);
 
-    /// Unmarks all; then marks those that touch any of the boxes.
+    /// Clears all marks, then marks the candidates that touch any of the boxes.
     void mark(std::span<const shared::CellBox> boxes);
 
-    /// Those marked, appended.
+    /// Appends the indices of marked candidates.
     void appendMarked(std::vector<std::uint32_t>& indices) const;
     void copyMarkedTo(Candidates& other) const;
 
@@ -25,8 +25,8 @@ private:
 
     std::span<const shared::CullLight> lights_;
     std::vector<std::uint32_t> index_;
-    std::vector<float> x_, y_, z_, squaredRadius_; ///< of spheres, culling space, metres
-    std::vector<std::uint32_t> mark_; ///< 0 or 1; as wide as the spheres, so that loops over both vectorise
+    std::vector<float> x_, y_, z_, squaredRadius_; ///< bounding spheres in culling space, metres
+    std::vector<std::uint32_t> mark_; ///< 0 or 1; 32 bits wide like the spheres, so that loops over both vectorise
     bool haveSides_ = false;
 };
 

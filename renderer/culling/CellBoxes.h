@@ -8,24 +8,24 @@
 
 namespace tessera::culling {
 
-/// The lists of a row of tiles: of each cell the first entry, counted from the row's first, and how many.
+/// Light lists of a row of tiles. A cell holds its first entry, relative to the row's first, and its number of entries.
 struct RowLists {
     std::vector<glm::uvec2> cells;
-    std::vector<std::uint32_t> entries; ///< numbers of lights
+    std::vector<std::uint32_t> entries; ///< light indices
 };
 
-/// The box around all that a tile shows. `rays` is TileGrid::rays() of the tile.
+/// Bounds all visible surfaces of a tile. `rays` is TileGrid::rays() of the tile.
 shared::CellBox tileBox(const TileDepths& tile, const glm::vec4& rays, const FrameConstants& frame,
                         const TileGrid& grid);
 
-/// The boxes that a method tests lights against, in `memory`, the farthest first: one around each slice that shows a
-/// surface (cluster), one around each run of neighbouring ones (tile_2.5d), or one around all (tile_minmax). None is
-/// larger than the tile's surfaces need.
+/// Boxes that a method tests lights against, stored in `memory`, farthest first: one per occupied slice (cluster), one
+/// per run of adjacent occupied slices (tile_2.5d), or one per tile (tile_minmax). All are clamped to the tile's
+/// nearest and farthest surface.
 using CellBoxes = std::array<shared::CellBox, LIGHT_TILE_SLICES>;
 std::span<const shared::CellBox> cellBoxes(Method method, const TileDepths& tile, const glm::vec4& rays,
                                            const FrameConstants& frame, const TileGrid& grid, CellBoxes& memory);
 
-/// How many lists a tile has.
+/// Number of light lists of a tile.
 std::size_t cellsOf(Method method, const TileDepths& tile);
 
 } // namespace tessera::culling

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-/// How the lights that a pixel visits are chosen. Names are those of the command line; the table is the only list.
+/// Light culling methods. Names are those of the command line; the tables are the only lists.
 namespace tessera::culling {
 
 enum class Method : std::uint8_t { None, TileMinmax, Tile25d, Cluster, Zbin };
@@ -12,13 +12,13 @@ struct MethodInfo {
     Method method;
     std::string_view name;
     std::string_view summary;
-    bool oneListATile;     ///< whatever the depth
-    bool mayCullByNormals; ///< a list is of the surfaces of one cell
+    bool oneListATile;     ///< one list for all depths of a tile
+    bool mayCullByNormals; ///< each list belongs to the surfaces of one cell
 };
 std::span<const MethodInfo> methodTable();
 const MethodInfo& infoOf(Method method);
 
-/// Who builds the lists.
+/// Where the lists are built.
 enum class Builder : std::uint8_t { Cpu, Compute };
 struct BuilderInfo {
     Builder builder;
@@ -28,7 +28,7 @@ struct BuilderInfo {
 std::span<const BuilderInfo> builderTable();
 const BuilderInfo& infoOf(Builder builder);
 
-/// Which cells leave out the lights behind all their opaque surfaces, where normals are stored.
+/// Which cells leave out lights behind all of their opaque surfaces. Needs stored normals.
 enum class NormalTest : std::uint8_t { Off, On, WhereWorth };
 struct NormalTestInfo {
     NormalTest test;
@@ -38,25 +38,25 @@ struct NormalTestInfo {
 std::span<const NormalTestInfo> normalTestTable();
 const NormalTestInfo& infoOf(NormalTest test);
 
-/// Entries of a list, on average, from which on NormalTest::WhereWorth looks at normals: with fewer, decoding the
-/// normals of a cell takes longer than visiting the lights (lattice, 128 to 4096 lights).
+/// Mean list length from which NormalTest::WhereWorth reads normals. With shorter lists, decoding a cell's normals
+/// takes longer than visiting the lights (lattice, 128 to 4096 lights).
 inline constexpr int kLightsWorthNormals = 12;
 
 /// Tile sides, in pixels.
 inline constexpr int kTileSides[] = {8, 16, 32, 64};
 inline constexpr int kUsualTilePixels = 16;
 
-/// The requested light culling; values left open follow from technique and backend (chooseCulling).
+/// Requested light culling. Unset values follow from technique and backend (chooseCulling).
 struct Settings {
     std::optional<Method> method;
     std::optional<int> tilePixels; ///< one of kTileSides
     std::optional<Builder> builder;
     std::optional<NormalTest> normals;
-    std::optional<int> lanes; ///< invocations that build a tile's lists together, 1 or 64; of the compute builder
+    std::optional<int> lanes; ///< compute builder: invocations that build a tile's lists together, 1 or 64
     bool operator==(const Settings&) const = default;
 };
 
-/// What a frame does.
+/// The resolved light culling of a frame.
 struct Choice {
     Method method = Method::None;
     int tilePixels = kUsualTilePixels;

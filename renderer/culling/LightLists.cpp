@@ -16,7 +16,7 @@ namespace tessera::culling {
 
 namespace {
 
-/// A row of tiles and what building its lists takes.
+/// Light lists of a row of tiles, with scratch memory.
 struct Row {
     std::vector<std::uint32_t> blockLights;
     Candidates block, tile;
@@ -45,7 +45,7 @@ struct Build {
         lists.cells.emplace_back(first, std::uint32_t(lists.entries.size()) - first);
     }
 
-    /// Appends the tile's cells; row.block holds the lights to choose from.
+    /// Appends the tile's cells; row.block holds the candidate lights.
     shared::LightTile tile(const TileDepths& depths, const glm::vec4& rays, Row& row) const {
         const auto cell = std::uint32_t(row.lists.cells.size());
         CellBoxes memory;
@@ -54,7 +54,7 @@ struct Build {
             appendCell(row.block, boxes, row.lists);
             return {{cell, ONE_LIGHT_SLICE, 1u, 0u}};
         }
-        // What misses the tile as a whole misses each of its slices.
+        // Lights that miss the whole tile miss each of its slices.
         const shared::CellBox whole = tileBox(depths, rays, input.frame, grid);
         row.block.mark({&whole, 1});
         row.block.copyMarkedTo(row.tile);
@@ -78,8 +78,8 @@ struct Build {
     }
 };
 
-/// Puts the rows' cells and entries behind one another, after the lights that reach everywhere. Cell 0 is empty, for
-/// tiles that show nothing.
+/// Concatenates the rows' cells and entries, after the entries of unbounded lights. Cell 0 is empty, for tiles without
+/// surfaces.
 void joinRows(const Build& build, std::span<const std::uint32_t> everywhere, std::span<const Row> rows,
               LightLists& lists) {
     std::vector<std::size_t> firstCell{1}, firstEntry{everywhere.size()};
@@ -98,7 +98,7 @@ void joinRows(const Build& build, std::span<const std::uint32_t> everywhere, std
             lists.cells[firstCell[i] + c] = row.cells[c] + glm::uvec2(std::uint32_t(firstEntry[i]), 0u);
         for (std::uint32_t column = 0; column < build.grid.columns; ++column) {
             shared::LightTile& tile = lists.tiles[i * build.grid.columns + column];
-            if (tile.words.z == 0) continue; // shows nothing
+            if (tile.words.z == 0) continue; // no surface
             tile.words.x += std::uint32_t(firstCell[i]);
             if (!infoOf(build.input.method).oneListATile) continue;
             const glm::uvec2& run = lists.cells[tile.words.x];

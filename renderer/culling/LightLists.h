@@ -13,7 +13,7 @@
 
 namespace tessera::culling {
 
-/// Light lists in CPU memory, as shaders/shared/light_lists.h lays them out.
+/// Light lists in CPU memory, in the layout of shaders/shared/light_lists.h.
 struct LightLists {
     std::vector<shared::LightTile> tiles;
     std::vector<glm::uvec2> cells;
@@ -24,7 +24,7 @@ struct LightLists {
     }
 };
 
-/// Downloads the normals of opaque surfaces, which have one depth a pixel; called at most once a build.
+/// Downloads the normals of opaque surfaces (one depth per pixel). Called at most once per build.
 using ReadNormals = std::function<NormalPicture()>;
 
 struct BuildInput {
@@ -38,13 +38,13 @@ struct BuildInput {
     ReadNormals readNormals;
 };
 
-/// Builds light lists on all cores. Keeps its scratch memory from frame to frame, and nothing else.
+/// Builds light lists on all CPU cores. Keeps only scratch memory between builds.
 class LightListBuilder {
 public:
     LightListBuilder();
     ~LightListBuilder();
 
-    /// Valid until the next build. `method` must not be none.
+    /// Builds the lists, which stay valid until the next build. `method` must not be none.
     const LightLists& build(const BuildInput& input);
 
 private:

@@ -10,12 +10,12 @@ namespace tessera::culling {
 
 namespace {
 
-constexpr float kLongestNormal = 1.7320509f; ///< a cube's half diagonal, rounded up
+constexpr float kLongestNormal = 1.7320509f; ///< half diagonal of the cube [-1, 1]^3, rounded up
 
-/// Where a light that ends somewhere is; w is how far from there it may shine from, with the rounding of its place and
-/// of the surfaces that it reaches, times the length of the longest normal. A light and all that it reaches lie within
-/// three radii of its sphere's centre, but for the surface of an area light. The apex of a cone stands back by its
-/// share of the error (CullLights.cpp).
+/// Position of a bounded light; w: error bound scaled by the longest normal. The bound covers the extent of an area
+/// light, the rounding of the light's position and of surfaces in its range, and for cones the offset of the apex
+/// (CullLights.cpp). Light and range lie within three radii of the bounding sphere's centre, except the surface of an
+/// area light.
 glm::vec4 positionAndError(const shared::CullLight& light, const glm::vec4& depthKey) {
     const float surfaceMetres = shared::hasCone(light) ? 0.0f : light.apex.w;
     const float farthestMetres = 3.0f * light.sphere.w + glm::length(glm::vec3(light.sphere)) + surfaceMetres;
@@ -25,8 +25,8 @@ glm::vec4 positionAndError(const shared::CullLight& light, const glm::vec4& dept
     return {glm::vec3(light.apex), kLongestNormal * error};
 }
 
-/// What lies in front of the surfaces of a cell. With m its middle, h half its size and p a surface, a normal n sees a
-/// light at l if n.(l - p) = n.(l - m) - n.(p - m) > 0, and the last is at most |n|.h.
+/// Half-spaces in front of a cell's surfaces. With m the cell's centre, h its half size and p a surface point, normal n
+/// faces a light at l if n.(l - p) = n.(l - m) - n.(p - m) > 0, and |n.(p - m)| is at most |n|.h.
 class Front {
 public:
     Front(const shared::CellBox& box, const NormalBounds& normals)
@@ -34,7 +34,7 @@ public:
         const glm::vec3 halfSize = 0.5f * (glm::vec3(box.high) - glm::vec3(box.low));
         const glm::vec3 farthest = glm::max(glm::abs(glm::vec3(box.low)), glm::abs(glm::vec3(box.high)));
         const glm::vec3 longest = glm::max(glm::abs(normals.low), glm::abs(normals.high));
-        // The second term is for rounding, 1e-7 of each coordinate a few times over.
+        // The second term covers rounding: 1e-7 of each coordinate, several times.
         extent_ = glm::dot(longest, halfSize) + 4e-6f * (farthest.x + farthest.y + farthest.z);
     }
 
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    /// The largest product of a normal and a vector. By components, so that loops over lights vectorise.
+    /// Largest dot product of a bounded normal with a vector. Per component, so that loops over lights vectorise.
     float mostAlong(float x, float y, float z) const {
         const float alongX = std::max(normals_.low.x * x, normals_.high.x * x);
         const float alongY = std::max(normals_.low.y * y, normals_.high.y * y);
@@ -54,7 +54,7 @@ private:
 
     NormalBounds normals_;
     glm::vec3 middle_;
-    float extent_; ///< of the cell along the normals, both ways from its middle
+    float extent_; ///< half extent of the cell along its normals
 };
 
 PixelRect pixelsOf(const TileGrid& grid, std::uint32_t column, std::uint32_t row) {
@@ -63,7 +63,7 @@ PixelRect pixelsOf(const TileGrid& grid, std::uint32_t column, std::uint32_t row
     return {left, std::min(width, left + side), height - below, height - row * side};
 }
 
-/// Moves the lights of `run` that are in front of anything to entries[kept] and following ones.
+/// Compacts `run` to the lights in front of any of `fronts`, stored from entries[kept] on.
 void keepInFront(const glm::uvec2& run, std::span<const Front> fronts, std::span<const glm::vec4> lights,
                  std::size_t& kept, std::vector<std::uint32_t>& entries) {
     const auto keep = [&](const auto& isInFront) {

@@ -7,23 +7,23 @@
 
 namespace tessera::culling {
 
-/// Whether the lists of all cells together have so many entries that looking at normals pays, or is asked for.
+/// Whether to cull by normals: always with On, with WhereWorth from kLightsWorthNormals entries per cell on.
 bool isLongEnough(NormalTest test, std::size_t entries, std::size_t cells);
 
-/// Takes lights from the lists of cells of which they stand behind all surfaces, and so change none.
+/// Removes lights from cells whose surfaces all face away from them, which does not change any pixel.
 class NormalCulling {
 public:
-    /// Of lists that isLongEnough(). All of the arguments must outlive it.
+    /// Requires isLongEnough() of the lists. All arguments must outlive the object.
     NormalCulling(const BuildInput& input, const TileGrid& grid, const NormalPicture& normals);
 
-    /// Of a row of tiles, whose depths are given by column. Rows may be culled at the same time.
+    /// Culls the lists of a row of tiles; `tiles` holds the depths by column. Rows may be culled concurrently.
     void cull(std::uint32_t tileRow, std::span<const TileDepths> tiles, RowLists& lists) const;
 
 private:
     const BuildInput& input_;
     const TileGrid& grid_;
     const NormalPicture& normals_;
-    std::vector<glm::vec4> lights_; ///< position in culling space, and how far from it the light may shine from
+    std::vector<glm::vec4> lights_; ///< xyz position in culling space, w error bound
 };
 
 } // namespace tessera::culling

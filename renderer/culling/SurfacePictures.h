@@ -5,11 +5,11 @@
 
 #include <glm/glm.hpp>
 
-/// What a picture's pixels show, as light lists are built from it. Rows run from the bottom, as OpenGL reads them.
+/// Depths and normals of visible surfaces, the input of light list building. Rows run bottom-up, as in OpenGL.
 namespace tessera::culling {
 
-/// The depths at which pixels are shaded: one value per pixel, or two when a pixel shades several surfaces (transparent
-/// ones, samples). Reverse-Z; a pixel whose nearest depth is 0 has no surface.
+/// The depths at which pixels are shaded: one per pixel, or a range where a pixel shades several surfaces (transparent
+/// layers, samples). Reverse-Z; a pixel whose nearest depth is 0 has no surface.
 struct DepthPicture {
     std::span<const float> depth; ///< one per pixel; or two: the nearest, and the farthest negated
     bool isRange = false;
@@ -21,13 +21,13 @@ enum class NormalForm : std::uint8_t {
     Vector      ///< x, y, z in fp32
 };
 
-/// How a pixel's words hold its normal.
+/// Bit layout of a pixel's normal.
 struct NormalEncoding {
     NormalForm form = NormalForm::Code;
-    unsigned bit = 0, width = 0; ///< octahedral: where the first coordinate begins, and bits of each of the two
+    unsigned bit = 0, width = 0; ///< octahedral: first bit of the first coordinate, bits per coordinate
 };
 
-/// The normals with which pixels are lit.
+/// The shading normals of pixels.
 struct NormalPicture {
     std::span<const std::uint32_t> words;
     std::size_t wordsAPixel = 2;
@@ -35,9 +35,9 @@ struct NormalPicture {
     glm::mat3 cullingFromLighting{1.0f}; ///< rotation
 };
 
-/// One depth and one normal a pixel.
+/// One depth and one normal per pixel.
 struct SurfacePictures {
-    std::span<const float> depth; ///< as DepthPicture has it
+    std::span<const float> depth; ///< as in DepthPicture
     const NormalPicture& normals;
     std::size_t widthPixels;
 };

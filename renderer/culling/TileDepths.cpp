@@ -7,7 +7,7 @@ namespace tessera::culling {
 
 namespace {
 
-/// Nearest and farthest depth of pixel i; equal for one depth a pixel.
+/// Nearest and farthest depth of pixel i; equal where a pixel has one depth.
 struct PixelDepths {
     float nearest, farthest;
 };
@@ -19,18 +19,18 @@ PixelDepths pixelDepths(const float* depth, std::size_t i) {
         return {depth[i], depth[i]};
 }
 
-/// The pixels of a row of tiles: lines from the bottom.
+/// The pixel rows of a row of tiles, counted from the bottom.
 struct PixelLines {
     const float* depth;
     std::size_t widthPixels;
-    int bottom, top; ///< top is one beyond
+    int bottom, top; ///< top is exclusive
 };
 
-/// As many columns of pixels as are looked at together: a whole number of tiles of every size.
+/// Pixel columns processed together: a multiple of every tile side.
 constexpr int kBlockColumns = 64;
 
-/// By column of a block, over the pixels of a row of tiles. The loops run along a line of pixels, so that the compiler
-/// takes several columns at once; a loop over the pixels of one tile would wait for its own result at each.
+/// Depth range of each pixel column of a block, over a row of tiles. Loops run along pixel rows, so that they vectorise
+/// over columns; a reduction over the pixels of one tile would depend on its previous step.
 struct ColumnDepths {
     float nearest[kBlockColumns];
     float farthest[kBlockColumns];

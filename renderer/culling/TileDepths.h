@@ -6,7 +6,7 @@
 
 namespace tessera::culling {
 
-/// The depths of the surfaces that one tile shows.
+/// Depth range and occupied slices of a tile's visible surfaces.
 struct TileDepths {
     float nearest = 0.0f;      ///< reverse-Z depth; 0: the tile shows no surface
     float farthest = 0.0f;     ///< reverse-Z depth
@@ -15,7 +15,7 @@ struct TileDepths {
     bool isEmpty() const { return slices == 0; }
 };
 
-/// The depths of a row of tiles, by column.
+/// Finds the depths of a row of tiles, by column.
 void findTileDepths(const DepthPicture& picture, const FrameConstants& frame, int row, std::span<TileDepths> tiles);
 
 } // namespace tessera::culling

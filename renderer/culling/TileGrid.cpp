@@ -22,7 +22,7 @@ void setTileGrid(shared::LightingConstants& lighting, const shared::ViewConstant
     const glm::uvec2 size(view.sizePixels);
     lighting.tileGrid = glm::uvec4((size.x + side - 1) / side, (size.y + side - 1) / side, size.y,
                                    std::uint32_t(std::countr_zero(side)));
-    // A key's 2^k steps cover a factor of two in distance, or all of an even depth range.
+    // The 2^23 keys of one exponent cover a factor of two in distance, or the whole range of linear depths.
     const double tileWidth = double(tilePixels) * double(view.rayFromPixel.y);
     const double tileWidthThere = tileWidth * (view.forwardLS.w != 0.0f ? 1.0 : double(view.eyeLS.w));
     const bool isEven = view.depthKey.y > 0.0f;

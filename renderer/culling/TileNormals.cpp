@@ -11,10 +11,10 @@ namespace tessera::culling {
 
 namespace {
 
-/// x, y, z in culling space; the fourth only lets the compiler take all at once.
+/// x, y, z in culling space; the fourth component pads to a SIMD vector.
 using Direction = std::array<float, 4>;
 
-/// `width` bits of a pixel's words from bit `first` on, in one word or two.
+/// Reads `width` bits of a pixel's words from bit `first` on; they may straddle two words.
 std::uint32_t field(const std::uint32_t* pixel, unsigned first, unsigned width) {
     const std::uint32_t* const word = pixel + first / 32;
     const unsigned low = first % 32;
@@ -22,7 +22,7 @@ std::uint32_t field(const std::uint32_t* pixel, unsigned first, unsigned width) 
     return std::uint32_t(both >> low) & ((1u << width) - 1u);
 }
 
-// In lighting space, no component larger than 1.
+// Decoded normals are in lighting space, with components of at most 1.
 glm::vec3 decodeNormalCode(const std::uint32_t* pixel) {
     const glm::uvec2 shares(field(pixel, 0, NORMAL_SHARE_BITS), field(pixel, NORMAL_SHARE_BITS, NORMAL_SHARE_BITS));
     const std::uint32_t axis = field(pixel, 2 * NORMAL_SHARE_BITS, NORMAL_AXIS_BITS);

@@ -7,21 +7,21 @@
 
 namespace tessera::culling {
 
-/// Columns and lines of pixels, lines from the bottom; right and top are one beyond.
+/// A rectangle of pixels. Rows count from the bottom; right and top are exclusive.
 struct PixelRect {
     std::size_t left, right, bottom, top;
 };
 
-/// The normals of some surfaces, in culling space. They are as long as they are stored: longer than 0 and up to a
-/// cube's half diagonal.
+/// Component-wise bounds of normals in culling space. Normals keep their stored length: above 0, at most the half
+/// diagonal of the cube [-1, 1]^3.
 struct NormalBounds {
     glm::vec3 low, high;
 };
 
-/// Bounds the normals of what a tile shows, in place of `bounds`.
+/// Bounds the normals of a tile's visible surfaces; replaces `bounds`.
 void findNormals(const SurfacePictures& pictures, const PixelRect& tile, std::vector<NormalBounds>& bounds);
 
-/// The same for each of a tile's occupied slices, the farthest first. `depthBias` is that of depth keys.
+/// The same per occupied slice of the tile, farthest first. `depthBias` is the bias of depth keys.
 void findNormalsBySlice(const SurfacePictures& pictures, const PixelRect& tile, const TileDepths& depths,
                         float depthBias, std::vector<NormalBounds>& bounds);
 

@@ -7,7 +7,7 @@
 
 namespace tessera::culling {
 
-/// Some lights, laid out so that the compiler tests several at once against a slab.
+/// A block of lights, stored as arrays so that tests against a slab vectorise.
 class TileSpans::Block {
 public:
     static constexpr std::size_t kLights = 64;
@@ -73,7 +73,7 @@ void TileSpans::set(std::span<const shared::CullLight> lights, const TileGrid& g
 }
 
 void TileSpans::sortIntoRows(std::uint32_t rows) {
-    // Counted, then added up to where each row begins, then filled in, which moves the beginnings on by a row.
+    // Counting sort: counts per row, prefix sum of row starts, then the fill, which advances each start to the next.
     rowStarts_.assign(rows + 2, 0);
     for (const Range& range : rows_)
         for (std::uint32_t row = range.first; row <= range.last; ++row) ++rowStarts_[row + 2];
@@ -87,7 +87,7 @@ void TileSpans::sortIntoRows(std::uint32_t rows) {
 
 void TileSpans::ofColumns(std::span<const std::uint32_t> from, std::uint32_t first, std::uint32_t last,
                           std::vector<std::uint32_t>& lights) const {
-    // Every light is written, and kept by moving on: which ones stay is too irregular for branches.
+    // Writes every light and advances only past those kept: the pattern is too irregular for branches.
     lights.resize(from.size());
     std::uint32_t* to = lights.data();
     for (const std::uint32_t light : from) {

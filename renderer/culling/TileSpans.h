@@ -8,19 +8,19 @@
 
 namespace tessera::culling {
 
-/// Which rows and columns of tiles each light may touch, by the planes between them. The planes of a tile are those of
-/// its row and column, so each is looked at once a light and not once a tile.
+/// The rows and columns of tiles that each light may touch, found by the planes between them. A tile's planes are those
+/// of its row and column, so each plane is tested once per light instead of once per tile.
 class TileSpans {
 public:
     void set(std::span<const shared::CullLight> lights, const TileGrid& grid);
 
-    /// Lights that reach everywhere, ascending.
+    /// Unbounded lights, ascending.
     std::span<const std::uint32_t> everywhere() const { return everywhere_; }
-    /// The others that touch a row, ascending.
+    /// Bounded lights that touch a row, ascending.
     std::span<const std::uint32_t> ofRow(std::uint32_t row) const {
         return std::span(rowLights_).subspan(rowStarts_[row], rowStarts_[row + 1] - rowStarts_[row]);
     }
-    /// Those of `from` that touch any of the columns first..last.
+    /// Selects the lights of `from` that touch any of the columns first..last.
     void ofColumns(std::span<const std::uint32_t> from, std::uint32_t first, std::uint32_t last,
                    std::vector<std::uint32_t>& lights) const;
 
@@ -35,8 +35,8 @@ private:
     std::vector<std::uint32_t> everywhere_;
     std::vector<Range> columns_, rows_; ///< by light
     std::vector<glm::vec4> columnSlabs_, rowSlabs_;
-    std::vector<std::uint32_t> rowLights_; ///< all rows' lights behind one another
-    std::vector<std::size_t> rowStarts_;   ///< by row, and one beyond the last
+    std::vector<std::uint32_t> rowLights_; ///< lights of all rows, concatenated
+    std::vector<std::size_t> rowStarts_;   ///< by row, and the end of the last
 };
 
 } // namespace tessera::culling

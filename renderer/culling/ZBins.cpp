@@ -39,7 +39,7 @@ struct DepthRun {
     float nearMetres, farMetres; ///< ahead of the origin of lighting space
 };
 
-/// Between which bin `index` lies.
+/// Depth range of bin `index`.
 DepthRun binDepths(const Bins& bins, std::uint32_t index, const FrameConstants& frame) {
     const glm::vec2 depths = shared::depthsOfSlices(bins.slicing, index, index, frame.view.depthKey.x);
     return {shared::aheadMetres(frame.view.aheadFromDepth, depths.y),

@@ -8,12 +8,12 @@ namespace tessera::frame {
 
 namespace {
 
-/// What the image plane sees, by the camera alone.
+/// Image-plane parameters of the camera.
 struct Lens {
-    glm::dmat4 clipFromView{0.0};  ///< clip.z is left 0
-    glm::dvec2 halfExtent{1.0};    ///< of the image plane: at unit distance (perspective) or anywhere (orthographic)
-    glm::dvec2 visibleExtent{1.0}; ///< the same of what is in view
-    glm::dvec2 shift{0.0};         ///< of the picture, in halves of its sides
+    glm::dmat4 clipFromView{0.0}; ///< clip.z is left 0
+    glm::dvec2 halfExtent{1.0}; ///< of the image plane at unit distance (perspective) or at any distance (orthographic)
+    glm::dvec2 visibleExtent{1.0}; ///< the same, enlarged to cover the shifted image
+    glm::dvec2 shift{0.0};         ///< of the image, in half widths and half heights
 };
 
 Lens makeLens(const scenes::Camera& camera, glm::ivec2 sizePixels, const glm::dvec2& offsetPixels) {
@@ -25,15 +25,15 @@ Lens makeLens(const scenes::Camera& camera, glm::ivec2 sizePixels, const glm::dv
     lens.clipFromView[0][0] = 1.0 / lens.halfExtent.x;
     lens.clipFromView[1][1] = 1.0 / lens.halfExtent.y;
     (isPerspective ? lens.clipFromView[2][3] : lens.clipFromView[3][3]) = isPerspective ? -1.0 : 1.0;
-    // Of clip.w, which the origin of lighting space adds its part to below.
+    // NDC offset, so a factor of clip.w. Applied below, once clip.w includes the origin of lighting space.
     lens.shift = 2.0 * offsetPixels / glm::dvec2(sizePixels);
-    // Depths are those of all that the shifted picture sees.
+    // The depth interval covers everything that the shifted image shows.
     lens.visibleExtent *= 1.0 + glm::abs(lens.shift);
     return lens;
 }
 
-/// Depth by the distance s ahead of lighting space's origin: clip.z = slope s + offset, and its inverse as the
-/// coefficients of ViewConstants::aheadFromDepth. Every term is as small as the interval is short.
+/// Depth as a function of the distance s ahead of lighting space's origin: clip.z = slope s + offset.
+/// ViewConstants::aheadFromDepth holds the coefficients of the inverse. Rounding errors shrink with the interval.
 struct DepthCoding {
     double slope = 0.0, offset = 0.0;
     glm::dvec4 aheadFromDepth{0.0};
@@ -111,7 +111,7 @@ CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, L
     c.background = glm::vec4(background, 0.0f);
     c.rayFromPixel = glm::vec4(pixelStep, 0.5 * glm::dvec2(sizePixels) + offsetPixels);
     c.sizePixels = glm::uvec4(sizePixels, 0u, 0u);
-    // a (f - z) / z is the depth of a perspective camera; adding a makes the key's sum a f / z.
+    // Perspective depth is a (f - z) / z; the bias a makes the depth key's sum a f / z.
     const double span = view.depths.isEven ? view.depths.farMetres - view.depths.nearMetres : 0.0;
     c.depthKey = glm::vec4(view.depths.isEven ? 1.0f : c.aheadFromDepth.z, float(span),
                            float(snapPixels * std::max(pixelStep.x, pixelStep.y)), snapPixels);

@@ -11,9 +11,9 @@
 
 namespace tessera::frame {
 
-/// A camera at a picture size, in double precision. LS (lighting space) has the axes of the world or of the view, and
-/// its origin on the view axis: at the eye, or, where all that is seen is far away, in the middle of it. Clip space is
-/// reverse-Z, zero to one: depth 1 at the near end of `depths`, 0 at the far one or infinity.
+/// A camera with an image size, in double precision. Lighting space (LS) has world or view axes. Its origin lies on the
+/// view axis: at the eye, or amid the visible surfaces if all of them are far away. Clip space is reverse-Z, zero to
+/// one: depth 1 at the near end of `depths`, 0 at the far end or at infinity.
 struct CameraView {
     glm::dvec3 eyeWS{0.0};
     glm::dvec3 originWS{0.0}; ///< of lighting space
@@ -28,13 +28,13 @@ struct CameraView {
     glm::dvec3 positionLS(const glm::dvec3& positionWS) const { return lsFromWorld * (positionWS - originWS); }
 };
 
-/// `bounds` are those of the scene; without them depth and lighting space are the camera's own, whatever it sees.
-/// `snapPixels` is gpu::Capabilities::snapPixels. `offsetPixels` shifts the picture to the right and up.
+/// Without `bounds` of the scene, depth spans the camera's near to far distance and lighting space starts at the eye.
+/// `snapPixels` is gpu::Capabilities::snapPixels. `offsetPixels` shifts the image to the right and up.
 CameraView makeCameraView(const scenes::Camera& camera, glm::ivec2 sizePixels, LightingSpace space,
                           const glm::vec3& background, std::span<const SurfaceBounds> bounds = {},
                           float snapPixels = 0.0f, const glm::dvec2& offsetPixels = glm::dvec2(0.0));
 
-/// Whether some plane of the view's frustum has all of a box behind it by more than a margin.
+/// Whether the whole box lies outside one frustum plane by more than the margin.
 bool isOutside(const scenes::Box3& boxWS, double marginMetres, const CameraView& view);
 
 } // namespace tessera::frame

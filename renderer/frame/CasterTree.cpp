@@ -28,13 +28,13 @@ using scenes::Mesh;
 struct CasterCorner {
     glm::vec3 positionCS;
     glm::vec2 texCoord; ///< the texture's transform applied
-    float opacity;      ///< without the texture
+    float opacity;      ///< base colour factor times vertex colour, without the texture
 };
 
 struct CasterTriangle {
     std::array<CasterCorner, 3> corners;
-    const Material* mask; ///< null: opaque all over
-    std::uint32_t mark;   ///< CASTER_PASSED and CASTER_MIRRORED
+    const Material* mask; ///< null: fully opaque
+    std::uint32_t mark;   ///< packed CASTER_PASSED and CASTER_MIRRORED
 };
 
 /// offset + rotation(scale uv), after KHR_texture_transform.
@@ -61,8 +61,8 @@ bool hasArea(const CasterTriangle& triangle) {
            glm::dvec3(0.0);
 }
 
-/// Begins with the corner between the two shorter edges: their cross product keeps more digits than those of a thin
-/// triangle's long ones.
+/// Rotates the corners so that the first lies between the two shorter edges. In a thin triangle their cross product
+/// keeps more digits than that of a long edge.
 void turnToShortEdges(CasterTriangle& triangle) {
     const auto opposite = [&](std::size_t corner) {
         return glm::distance(glm::dvec3(triangle.corners[(corner + 1) % 3].positionCS),
@@ -89,8 +89,8 @@ glm::dvec3 placeOf(const glm::dmat4& worldFromNode, const glm::vec3& positionOS)
     return glm::dvec3(worldFromNode * glm::dvec4(glm::dvec3(positionOS), 1.0));
 }
 
-/// By how much rounding moves a mesh's triangles beyond kPositionRounding of their distance from `centreWS`: a vertex
-/// is added up from its coordinates in the mesh, and moves all of its triangle.
+/// Rounding error of a mesh's triangles in metres, beyond kPositionRounding times their distance from `centreWS`. A
+/// vertex is a sum of products of its mesh coordinates, and its error moves the whole triangle.
 double roundingMetresOf(const Mesh& mesh, const glm::dmat4& worldFromNode, const glm::dvec3& centreWS) {
     double metres = 0.0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -112,9 +112,9 @@ double roundingMetresOf(const Mesh& mesh, const glm::dmat4& worldFromNode, const
     return metres;
 }
 
-/// Without its nodes; a unit of 0 where no two corners of casters differ.
+/// Fills all of CasterSpace except `nodes`. unitMetres is 0 without casters or if all their corners coincide.
 CasterSpace spaceOf(const scenes::Scene& scene) {
-    // One number of each corner at a time: scenes may have many.
+    // Collects one coordinate of each corner at a time to save memory: scenes may have many corners.
     const auto ofCorners = [&](auto number) {
         std::vector<double> numbers;
         visitCasters(scene, [&](const Mesh& mesh, const Material&, const glm::dmat4& worldFromNode) {
@@ -129,13 +129,13 @@ CasterSpace spaceOf(const scenes::Scene& scene) {
     std::vector<double> distances =
         ofCorners([&](const glm::dvec3& placeWS) { return glm::distance(placeWS, space.centreWS); });
     const double farthest = distances.empty() ? 0.0 : *std::ranges::max_element(distances);
-    // Between the casters' usual size and that of all: fp32 holds the fourth powers of both, where they differ by up to
+    // Geometric mean of the median and the largest distance: fp32 holds the fourth powers of both up to a ratio of
     // 10^18.
     const double usual = medianOf(std::move(distances));
     space.unitMetres = usual > 0.0 ? std::sqrt(usual) * std::sqrt(farthest) : farthest;
     if (space.unitMetres == 0.0) return space;
     space.radius = farthest / space.unitMetres;
-    // Surfaces that cast no shadow receive some.
+    // All instances count: surfaces that cast no shadow still receive shadows.
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
     for (std::size_t node = 0; node < scene.nodes.size(); ++node)
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances)
@@ -145,7 +145,7 @@ CasterSpace spaceOf(const scenes::Scene& scene) {
     return space;
 }
 
-/// The casters' triangles: the opaque ones, and those with masks.
+/// The casters' triangles: [0] opaque, [1] alpha-masked.
 std::array<std::vector<CasterTriangle>, 2> trianglesOf(const scenes::Scene& scene, const CasterSpace& space,
                                                        std::span<const std::size_t> passedRows) {
     std::array<std::vector<CasterTriangle>, 2> triangles;
@@ -171,7 +171,7 @@ std::array<std::vector<CasterTriangle>, 2> trianglesOf(const scenes::Scene& scen
     return triangles;
 }
 
-// ---- Sorting by Embree ---------------------------------------------------------------------------------------------
+// ---- Building the hierarchy with Embree ----------------------------------------------------------------------------
 
 struct ReleaseDevice {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -209,12 +209,12 @@ RTCBuildPrimitive primitiveOf(const CasterTriangle& triangle, std::uint32_t numb
             : fmt::format("Embree failed while it sorted the casters of shadows (error {})", int(error)));
 }
 
-/// Writes texels of the tree.
+/// Writes the texels of the tree.
 class TreeWriter {
 public:
     TreeWriter(const scenes::Scene& scene, CasterTree& tree) : scene_(scene), tree_(tree) {}
 
-    /// All nodes come first, so that their numbers are places.
+    /// Writes all nodes first, so that a node's number is its place in the buffer.
     void write(const std::array<std::vector<CasterTriangle>, 2>& triangles) {
         const std::unique_ptr<RTCDeviceTy, ReleaseDevice> device(rtcNewDevice(nullptr));
         if (!device) throw std::runtime_error("Embree, which sorts the casters of shadows, does not start");
@@ -233,10 +233,10 @@ public:
 
 private:
     struct Leaf {
-        std::size_t nodeTexel; ///< that says where its triangles are
+        std::size_t nodeTexel; ///< node texel that stores packCasterLeaf()
         std::vector<const CasterTriangle*> triangles;
     };
-    /// A texel that is to name a mask.
+    /// A triangle's texel whose z receives the first texel of its mask, written last.
     struct Pending {
         std::size_t texel;
         const Material* material;
@@ -299,7 +299,7 @@ private:
         return all;
     }
 
-    /// A node and all below it. Embree's trees are at most some dozens of levels deep.
+    /// Adds a node and its subtree recursively. Embree's trees are at most a few dozen levels deep.
     void add(const BuiltNode& built, const RTCBounds& bounds, const std::vector<CasterTriangle>& triangles) {
         const std::size_t texel = nodes_.size();
         nodes_.emplace_back(glm::floatBitsToUint(glm::vec3(bounds.lower_x, bounds.lower_y, bounds.lower_z)), 0u);
@@ -334,7 +334,7 @@ private:
         }
     }
 
-    /// The texel of a material's mask, written once.
+    /// Returns the first texel of a material's mask, and writes the mask on first use.
     glm::uint maskOf(const Material& material) {
         const auto [known, isNew] = masks_.try_emplace(&material, glm::uint(tree_.texels.size()));
         if (!isNew) return known->second;
@@ -354,7 +354,7 @@ private:
         return texel;
     }
 
-    /// Of an image, or 1 for none.
+    /// Writes the alpha channel of an image, or a single 1 without an image.
     void writeOpacities(const scenes::Image* image) {
         std::vector<float> opacities(image ? std::size_t(image->width) * std::size_t(image->height) : 1, 1.0f);
         if (image) {
@@ -393,7 +393,7 @@ private:
     std::vector<Leaf> leaves_;
     std::vector<Pending> pending_;
     std::map<const Material*, glm::uint> masks_;
-    std::map<int, glm::uint> opacities_; ///< by image
+    std::map<int, glm::uint> opacities_; ///< first texel, by image
 };
 
 static_assert(int(scenes::Wrap::ClampToEdge) == CASTER_WRAP_CLAMP &&
@@ -418,8 +418,8 @@ shared::CasterTreeConstants casterTreeConstants(const CasterSpace& casters, cons
     const glm::dvec3 fromCentreMetres = view.originWS - casters.centreWS;
     constants.rwsOriginCS =
         glm::vec4(glm::vec3(fromCentreMetres / casters.unitMetres), float(1.0 / casters.unitMetres));
-    // Positions of a view and the way to the casters' origin, and the steps of even depths. A caster's corner lies no
-    // farther from that origin than the point and the way between the two, whose digits the walk counts.
+    // Covers the offset between the two origins and the linear depth steps. From the casters' origin, a corner is at
+    // most as far as the point plus the distance between the two, whose rounding the walk adds.
     const double metres = kPositionRounding * (glm::length(fromCentreMetres) + double(view.constants.depthKey.y)) +
                           casters.roundingMetres;
     constants.rounding = glm::vec4(float(metres), float(2.0 * kPositionRounding), float(casters.radius), 0.0f);

@@ -11,34 +11,34 @@
 
 namespace tessera::frame {
 
-/// What rounding leaves of a position in fp32: four operations of sqrt(3) times the root of its products' squares, and
-/// a turn of the axes, some eight roundings.
+/// Relative rounding error of a position in fp32, about eight roundings: four operations on sqrt(3) times the root of
+/// the sum of squared products, and a rotation of the axes.
 inline constexpr double kPositionRounding = 8.0 * 0x1p-24;
 
-/// Where the casters of a scene are, and how exactly.
+/// The coordinate space of a scene's casters, and its rounding error.
 struct CasterSpace {
-    /// The origin of casters' space: the median, on each axis, of the corners of their triangles. A stray far away does
-    /// not take the digits of all others.
+    /// The origin of casters' space: the per-axis median of the casters' triangle corners, so that a distant outlier
+    /// costs the others no precision.
     glm::dvec3 centreWS{0.0};
-    double unitMetres = 0.0;     ///< of casters' space
-    double radius = 0.0;         ///< in units, around the origin: all casters
-    double roundingMetres = 0.0; ///< by how much rounding to fp32 moves what is drawn of any object against its place
-                                 ///< in double precision, beyond kPositionRounding of its distance from the origin
+    double unitMetres = 0.0;     ///< length of a unit of casters' space
+    double radius = 0.0;         ///< bounding radius of all casters around the origin, in units
+    double roundingMetres = 0.0; ///< largest fp32 rounding error of any object's drawn position, beyond
+                                 ///< kPositionRounding times its distance from the origin
     std::uint32_t nodes = 0;     ///< of the tree
 };
 
-/// The casters (scenes/Shadows.h) as a bounding volume hierarchy that shaders walk.
+/// The casters (scenes/Shadows.h) as a bounding volume hierarchy that shaders traverse.
 struct CasterTree {
     CasterSpace space;
     std::vector<glm::uvec4> texels; ///< shaders/shared/caster_tree.h; triangles without area are left out
 };
 
-/// `passedRows` is by material the row of SubsurfaceConstants that lets light through, 0 for none; materials beyond it
-/// have none. Throws std::runtime_error when Embree, which sorts the triangles, fails, or when the tree is too large to
-/// be addressed.
+/// `passedRows`: per material, the row of SubsurfaceConstants with its transmission, 0 for none; missing materials have
+/// none. Throws std::runtime_error if Embree, which builds the hierarchy, fails, or if the tree exceeds the addressable
+/// size.
 CasterTree makeCasterTree(const scenes::Scene& scene, std::span<const std::size_t> passedRows = {});
 
-/// How a view's surfaces find their place in the tree.
+/// Constants that transform a view's positions to casters' space, and their rounding errors.
 shared::CasterTreeConstants casterTreeConstants(const CasterSpace& casters, const CameraView& view);
 
 } // namespace tessera::frame

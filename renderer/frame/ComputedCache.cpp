@@ -26,15 +26,15 @@ namespace {
 
 /// Hash of the sources of filterEnvironment() and makeLobeTable(): renderer/CMakeLists.txt lists them.
 constexpr std::string_view kSources = TESSERA_COMPUTED_VERSION;
-/// Files that the folder holds at most: of each map, and of each version of the program, there is one.
+/// Maximum number of files in the folder; each map and each version of the program has its own.
 constexpr std::size_t kMostFiles = 32;
 
-/// Parts of memory that lie in a file one after the other, behind its head.
+/// Memory blocks stored one after the other in a file, after its header.
 using Parts = std::vector<std::span<std::byte>>;
 
-/// What a file begins with.
+/// The header of a file.
 struct Head {
-    Sha256Digest key, content; ///< of all that the parts are computed from, and of the key and the parts
+    Sha256Digest key, content; ///< hash of all inputs; hash of the key and the parts
     bool operator==(const Head&) const = default;
 };
 
@@ -45,23 +45,23 @@ Head headOf(const Sha256Digest& key, const Parts& parts) {
     return {key, hash.digest()};
 }
 
-/// A whole number of a key, alike on every machine.
+/// Adds an integer to a key in a fixed byte order, independent of the machine.
 void add(Sha256& hash, std::uint64_t number) {
     std::array<std::byte, 8> bytes{};
     for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = std::byte(number >> (8 * i) & 0xff);
     hash.add(bytes);
 }
 
-/// By the precise clock: a file system's own may stand still for milliseconds.
+/// Sets the modification time by the precise clock: a file system's clock may advance in steps of milliseconds.
 void noteUse(const std::filesystem::path& file) {
     std::error_code error;
     std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
 }
 
-/// Whether all was there as it was written, and nothing else.
+/// Reads the parts. Returns false if the file is missing, altered, too short or too long.
 bool read(const std::filesystem::path& file, const Sha256Digest& key, const Parts& parts) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) return false; // a pipe would wait for its other end
+    if (!std::filesystem::is_regular_file(file, error)) return false; // opening a pipe would block
     std::ifstream in(file, std::ios::binary);
     Head found{};
     if (!in.read(reinterpret_cast<char*>(&found), sizeof(found)) || found.key != key) return false;
@@ -72,7 +72,7 @@ bool read(const std::filesystem::path& file, const Sha256Digest& key, const Part
     return true;
 }
 
-/// The first fault, until it is taken; none is noted after it.
+/// The first write failure until it is taken; later ones are ignored.
 struct CacheFault {
     std::mutex mutex;
     std::string text;
@@ -87,13 +87,13 @@ void noteFault(const std::filesystem::path& file, const std::string& reason) {
     CacheFault& fault = cacheFault();
     const std::lock_guard lock(fault.mutex);
     if (std::exchange(fault.isNoted, true)) return;
-    // What to do about a file that somebody named does not help with one that nobody did.
+    // Drops the advice after "; ": it applies to files named by the user, not to cache files.
     fault.text = fmt::format("{} cannot be kept, so that it is computed anew each time: {}; make its folder writable, "
                              "or name another with XDG_CACHE_HOME",
                              file.string(), reason.substr(0, reason.find("; ")));
 }
 
-/// Removes the files of the cache that were used longest ago, all but kMostFiles.
+/// Removes the least recently used cache files beyond kMostFiles.
 void removeOldest(const std::filesystem::path& folder) {
     std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> files;
     std::error_code error;
@@ -114,7 +114,7 @@ void write(const std::filesystem::path& file, const Sha256Digest& key, const Par
         bytes.append(reinterpret_cast<const char*>(part.data()), part.size());
     try {
         std::filesystem::create_directories(file.parent_path());
-        // A pipe would wait for its other end, and a link leads to a file that is not the cache's.
+        // Opening a pipe would block, and a link leads to a file outside the cache.
         const std::filesystem::file_status status = std::filesystem::symlink_status(file);
         if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status) &&
             !std::filesystem::is_directory(status))
@@ -122,14 +122,14 @@ void write(const std::filesystem::path& file, const Sha256Digest& key, const Par
         writeFileAtomically(file.string(), bytes);
         noteUse(file);
         removeOldest(file.parent_path());
-    } catch (const std::filesystem::filesystem_error& error) { // it is computed anew next time
+    } catch (const std::filesystem::filesystem_error& error) { // the result is recomputed next time
         noteFault(file, error.code().message());
     } catch (const std::exception& error) {
         noteFault(file, error.what());
     }
 }
 
-/// Hash of the texels and of all else that the filtered result depends on.
+/// Hash of the texels and of all other inputs of filterEnvironment().
 Sha256Digest keyOf(const scenes::Image& map) {
     Sha256 hash;
     hash.add(std::as_bytes(std::span(kSources)));
@@ -146,7 +146,7 @@ Sha256Digest lobeKey() {
     return hash.digest();
 }
 
-/// Room for what a map is filtered to.
+/// Allocates the filtered result of a map.
 FilteredEnvironment emptyFor(const scenes::Image& map) {
     const auto shape = [](int side) {
         return DividedOctahedron{side, std::vector<glm::vec3>(std::size_t((side + 1) * (side + 1)))};
@@ -169,7 +169,7 @@ Parts partsOf(FilteredEnvironment& filtered) {
 } // namespace
 
 std::optional<std::filesystem::path> cacheFolder() {
-    // A relative one is to be ignored. Source: XDG Base Directory Specification.
+    // Relative paths are ignored. Source: XDG Base Directory Specification.
     if (const char* folder = std::getenv("XDG_CACHE_HOME");
         folder != nullptr && std::filesystem::path(folder).is_absolute())
         return std::filesystem::path(folder) / "tessera";

@@ -9,24 +9,24 @@
 
 #include "renderer/frame/EnvironmentFilter.h"
 
-/// What takes seconds to compute and never changes, kept in files: in a folder that may be deleted at any time. One
-/// that cannot be written or read is no error; takeCacheFault() tells of it.
+/// A disk cache of results that take seconds to compute and never change. Its folder may be deleted at any time. Files
+/// that cannot be read or written are no error; takeCacheFault() reports failed writes.
 namespace tessera::frame {
 
-/// $XDG_CACHE_HOME/tessera where that is absolute, else ~/.cache/tessera; none where neither is known.
+/// $XDG_CACHE_HOME/tessera if that is an absolute path, else ~/.cache/tessera; none if neither variable is set.
 std::optional<std::filesystem::path> cacheFolder();
 
-/// As filterEnvironment(), from a file of the folder where an earlier call left it for a map of the same texels, else
-/// left there, unless `progress` throws.
+/// filterEnvironment() with a cache: reads the result of an earlier call for a map of the same texels from the folder,
+/// else computes and stores it. Stores nothing if `progress` throws.
 FilteredEnvironment cachedEnvironment(
     const scenes::Image& map, const std::optional<std::filesystem::path>& folder,
     const std::function<void(double)>& progress = [](double) {});
 
-/// As makeLobeTable(), likewise.
+/// makeLobeTable() with the same cache.
 std::vector<glm::vec4> cachedLobeTable(const std::optional<std::filesystem::path>& folder);
 
-/// Where and why a file could not be left in its folder, the first time that one could not: given once to whoever asks
-/// first, from any thread; else empty.
+/// Returns the message of the first failed write, with file and reason, and clears it; later failures are not reported.
+/// Empty if there is none. Thread-safe.
 std::string takeCacheFault();
 
 } // namespace tessera::frame

@@ -28,7 +28,7 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
     cull.axis.w = -2.0f;
     cull.sphere.w = -1.0f;
     const int kind = int(light.color.w);
-    if (light.position.w == 0.0f) return cull; // reaches everywhere
+    if (light.position.w == 0.0f) return cull; // unlimited range
 
     const glm::dvec3 position = cameraFromLS * glm::dvec3(light.position);
     const double reach = 1.0 / std::sqrt(double(light.position.w));
@@ -40,8 +40,8 @@ shared::CullLight cullLight(const shared::LightTexels& light, const shared::Ligh
         const double cosOuter = std::clamp(double(shared::coneCosOuter(kind, shape)) - CONE_COSINE_MARGIN, -1.0, 1.0);
         const glm::dvec3 axis = glm::normalize(cameraFromLS * glm::dvec3(shared::coneTravel(shape)));
         sphere = sphereAroundCone(position, axis, cosOuter, reach);
-        // A cone whose apex stands back by m / sin(outer) encloses all that lies within m of it. What is a share of the
-        // distance coneTouchesBox() adds.
+        // Moving the apex back by m / sin(outer) encloses all points within m of the cone. coneTouchesBox() adds the
+        // error that is proportional to the distance.
         const double errorMetres = double(shared::roundingMargin(0.0f, depthKey));
         const double sinOuter = std::sqrt(1.0 - cosOuter * cosOuter);
         const glm::dvec3 apex = sinOuter > 0.0 ? position - axis * (errorMetres / sinOuter) : position;

@@ -7,8 +7,8 @@
 
 namespace tessera::frame {
 
-/// The volumes outside which packed lights are exactly 0, parallel to lights.texels. Made from what the shaders read,
-/// so that culling and lighting agree on the light, and enlarged by the largest rounding error.
+/// Bounding volumes outside which packed lights are exactly 0, parallel to lights.texels. Computed from the data that
+/// the shaders read, so that culling and lighting agree, and enlarged by the largest rounding error.
 std::vector<shared::CullLight> cullLights(const PackedLights& lights, const CameraView& view);
 
 } // namespace tessera::frame

@@ -73,7 +73,7 @@ static_assert(static_cast<unsigned>(DisplayMapping::ShadowAtlas) == DISPLAY_SHAD
 
 constexpr std::size_t kStoredViews = 2 * kChannelCount;
 
-/// The views above, and two for every channel.
+/// The views above, and two per G-buffer channel.
 struct Table {
     std::array<std::string, kStoredViews> names, meanings;
     std::vector<DebugViewInfo> rows{std::begin(kViews), std::end(kViews)};

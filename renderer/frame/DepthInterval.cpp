@@ -19,11 +19,11 @@ std::array<glm::dvec3, 8> cornersOf(const scenes::Box3& box) {
     return corners;
 }
 
-/// What a camera sees of the bounds, as far as boxes tell.
+/// Visible extent of the bounding boxes.
 struct Seen {
     double nearest = std::numeric_limits<double>::infinity(); ///< along the view axis
     double farthest = -std::numeric_limits<double>::infinity();
-    double across = 0.0; ///< from the view axis
+    double across = 0.0; ///< largest distance from the view axis
     double reach = 0.0;  ///< the largest SurfaceBounds::reachMetres
 
     void add(const glm::dvec3& placeVS) {
@@ -33,12 +33,12 @@ struct Seen {
     }
 };
 
-/// What lies just outside a side of the picture is taken in too, since rounding to fp32 may move it into the picture:
-/// by these shares of the picture and of the distance of the box's farthest corner.
+/// Margins beyond the sides of the image, since fp32 rounding may move geometry into it: fractions of the image's size
+/// and of the distance of the box's farthest corner.
 constexpr double kSideMargin = 1e-4;
 constexpr double kRoundingMargin = 1e-6;
 
-/// A side of the picture in view space: dot(normal, place) <= offset within it.
+/// A frustum plane in view space: dot(normal, place) <= offset inside.
 struct Side {
     glm::dvec3 normal;
     double offset;
@@ -55,13 +55,13 @@ std::array<Side, 5> sidesOf(const scenes::Camera& camera, const glm::dvec2& half
         sides[i] = {{0.0, 0.0, isPerspective ? half : 0.0}, margin + (isPerspective ? 0.0 : half)};
         sides[i].normal[axis] = i % 2 == 0 ? 1.0 : -1.0;
     }
-    sides[4] = {{0.0, 0.0, 1.0}, 0.0}; // ahead
+    sides[4] = {{0.0, 0.0, 1.0}, 0.0}; // in front of the eye
     return sides;
 }
 
 using Polygon = std::vector<glm::dvec3>;
 
-/// The part of a polygon within a side. Source: Sutherland and Hodgman 1974, "Reentrant Polygon Clipping".
+/// Clips a polygon against a plane. Source: Sutherland and Hodgman 1974, "Reentrant Polygon Clipping".
 Polygon clipped(const Polygon& polygon, const Side& side) {
     Polygon within;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -73,8 +73,7 @@ Polygon clipped(const Polygon& polygon, const Side& side) {
     return within;
 }
 
-/// Adds the visible part of a box: its faces clipped by the sides of the view, and the eye itself if it is inside the
-/// box.
+/// Adds the visible part of a box: its faces clipped by the frustum planes, and the eye if it is inside the box.
 void addBox(Seen& seen, const SurfaceBounds& bounds, const scenes::Camera& camera, const glm::dvec2& halfExtent) {
     const glm::dmat3 viewFromWorld = glm::inverse(glm::dmat3(camera.worldFromCamera));
     const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
@@ -119,7 +118,7 @@ void addBox(Seen& seen, const SurfaceBounds& bounds, const scenes::Camera& camer
 DepthInterval ownInterval(const scenes::Camera& camera) {
     DepthInterval own{camera.nearMetres, camera.farMetres, 0.0, false};
     own.isEven = camera.projection == scenes::Projection::Orthographic;
-    // The depth of parallel rays cannot reach infinity.
+    // Orthographic depth needs a finite far end.
     if (own.isEven && std::isinf(own.farMetres)) own.farMetres = own.nearMetres + 2000.0 * camera.halfHeightMetres;
     return own;
 }
@@ -137,7 +136,7 @@ double usualMetresOf(const std::vector<glm::dvec3>& cornersWS) {
     return medianBy([&](const glm::dvec3& cornerWS) { return glm::distance(cornerWS, medianWS); });
 }
 
-/// SurfaceBounds::textureSideMetres; `cornersWS` are three a triangle.
+/// SurfaceBounds::textureSideMetres; `cornersWS` holds three corners per triangle.
 double textureSideMetresOf(const scenes::Mesh& mesh, std::span<const glm::dvec3> cornersWS) {
     if (mesh.texCoords[0].empty()) return 0.0;
     double square = 0.0, covered = 0.0;

@@ -58,19 +58,19 @@ std::vector<SpreadingObject> spreadingObjects(const scenes::Scene& scene, scenes
 }
 
 LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians, double texelMetres, bool isHalved) {
-    // Variances, not yet those that each level adds.
+    // Holds total variances here, not yet the increments of LightSpread::levels.
     std::vector<DiffusionLevel> levels;
     const scenes::DiffusionProfile& profile = scenes::profileOf(subsurface);
     glm::dvec3 sum(0.0);
     for (const scenes::DiffusionGaussian& gaussian : profile) {
-        const double metres = 1e-3 / double(subsurface.scaleMetres); // of the scene, for a millimetre
+        const double metres = 1e-3 / double(subsurface.scaleMetres); // scene metres per millimetre
         levels.push_back({double(gaussian.varianceSquareMillimetres) * metres * metres, glm::dvec3(gaussian.weight)});
         sum += levels.back().weight;
     }
     for (DiffusionLevel& level : levels) level.weight /= sum;
     std::ranges::stable_sort(levels, {}, &DiffusionLevel::varianceSquareMetres);
     while (levels.size() > std::size_t(std::max(mostGaussians, 1))) {
-        // The two whose merging moves the logarithm of their widths least.
+        // Merges the two neighbours whose log widths change least.
         std::size_t best = 0;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i + 1 < levels.size(); ++i) {
@@ -92,8 +92,8 @@ LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians,
         levels.erase(levels.begin() + std::ptrdiff_t(best) + 1);
     }
     const double shown = texelVariance(texelMetres, isHalved);
-    // Where a profile's widths jump by more than DIFFUSION_WIDENING, every texel is a tap. Of these there may be twice
-    // as many where texels are smaller.
+    // Where the widths grow by more than DIFFUSION_WIDENING, every texel is a tap. The factor 1/2 allows for twice
+    // as many taps where texels are smaller.
     const double fineMetres = texelMetres * double(DIFFUSION_MOST_FINE_TAPS) / 2.0 / DIFFUSION_REACH;
     LightSpread spread;
     spread.texelMetres = texelMetres;
@@ -248,7 +248,7 @@ DiffusionWork DiffusionMemory::next(std::size_t cell, std::uint64_t key, const s
     *tilesLeft_ -= light.count();
     if (light == work.light) {
         *tilesLeft_ -= std::min(*tilesLeft_, (work.store.count() + kSpreadTiles - 1) / kSpreadTiles);
-    } else { // light spreads once all of it is there
+    } else { // diffusion waits until all its irradiance is lit
         const TileSet none(tiles.side());
         work = {light, std::vector<DiffusionWork::Level>(variances.size(), {none, none, none}), none};
     }

@@ -15,11 +15,11 @@
 #include "renderer/gpu/Texture.h"
 #include "scenes/Scene.h"
 
-/// Light that spreads over the surfaces of objects (docs/skin.md): which objects, by which Gaussians, in which atlas,
-/// and what is kept from frame to frame.
+/// Texture-space diffusion of irradiance (docs/skin.md): its objects, their Gaussians and atlas, and the state kept
+/// from frame to frame.
 namespace tessera::frame {
 
-/// A mesh instance whose material spreads light over it.
+/// A mesh instance whose material uses texture-space diffusion.
 struct SpreadingObject {
     int node = 0;
     int mesh = 0;
@@ -27,68 +27,68 @@ struct SpreadingObject {
     int instance = 0;        ///< place among the mesh instances of all nodes, in document order
     scenes::Box3 boxWS;      ///< SurfaceBounds
     double sideMetres = 0.0; ///< SurfaceBounds::textureSideMetres
-    std::string name;        ///< of messages
+    std::string name;        ///< for messages
 };
 
-/// Those that are drawn, in document order. A view's SpreadLightAtlas has a cell for each.
+/// The drawn objects with diffusion, in document order. A view's SpreadLightAtlas has one cell for each.
 std::vector<SpreadingObject> spreadingObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
                                               std::span<const SurfaceBounds> bounds);
 
-/// Light as it has spread so far is spread on by a Gaussian, and a share of it goes into the sum.
+/// One of successive Gaussian blurs: blurs the result of the level before it, and adds it to the sum by its weight.
 struct DiffusionLevel {
-    double varianceSquareMetres = 0.0; ///< that is added to texels of the object's mean size, in metres of the scene
+    double varianceSquareMetres = 0.0; ///< added variance at the object's mean texel size, in scene metres squared
     glm::dvec3 weight{0.0};
-    /// Of light that has spread by this level and those before, with what showing texels adds.
+    /// Total variance after this level, including texelVariance().
     double spreadSquareMetres = 0.0;
     bool operator==(const DiffusionLevel&) const = default;
 };
-/// How an object's light spreads. All weights sum to 1 in each channel. Showing texels spreads their light already, by
-/// texelVariance(): levels add what is missing. A narrower Gaussian has its variance from two shares, one that texels
-/// show as they are lit and one that does not spread, which pixels reflect of the frame's lights like other surfaces.
+/// The diffusion of an object's irradiance. All weights sum to 1 in each channel. Texel interpolation already blurs by
+/// texelVariance(); levels add the rest. A narrower Gaussian is split into two fractions that match its variance:
+/// `inTexels`, read from the texels as lit, and `inPixels`, undiffused, shaded per pixel like other surfaces.
 struct LightSpread {
     glm::dvec3 inPixels{0.0}, inTexels{0.0};
-    std::vector<DiffusionLevel> levels; ///< from the narrowest Gaussian on
-    double texelMetres = 0.0;           ///< what it was made for
+    std::vector<DiffusionLevel> levels; ///< narrowest first
+    double texelMetres = 0.0;           ///< mean texel size it was made for
 };
-/// The least that a level spreads light from and the most that it spreads it to: a texel shows less than the mean,
-/// where it is smaller, so that its first level adds more.
+/// Bounds of the total variance before and after a level. Texels smaller than the mean blur less by interpolation, so
+/// the first level may start at 0 and add more.
 struct LevelReach {
     double fromSquareMetres = 0.0, toSquareMetres = 0.0;
-    double mostSquareMetres() const { return toSquareMetres - fromSquareMetres; } ///< variance that it adds
+    double mostSquareMetres() const { return toSquareMetres - fromSquareMetres; } ///< largest added variance
 };
 LevelReach levelReach(const LightSpread& spread, std::size_t level);
-/// By how much light spreads that is sampled at texels and interpolated between them, in squares of a texel: a tent's,
-/// and where four texels became one, theirs around its middle.
+/// Variance of the blur by texel sampling and bilinear interpolation, in squared texels: that of a tent and, if halved,
+/// that of the four averaged texels around their centre.
 constexpr double texelVariance(bool isHalved) {
     return 1.0 / 6.0 + (isHalved ? 1.0 / 16.0 : 0.0);
 }
 constexpr double texelVariance(double texelMetres, bool isHalved) {
     return texelMetres * texelMetres * texelVariance(isHalved);
 }
-/// With fewer Gaussians than the profile has, neighbours become one of their mean variance. Where one is so wide that
-/// taps of the next would miss what lies between them, levels without weight stand before it. Texels of 0 metres, those
-/// of an object without area, show every Gaussian.
+/// Merges neighbours at their mean variance if the profile has more than `mostGaussians`. Inserts levels of weight 0
+/// before a Gaussian that is too wide for the level before it, since its taps would skip detail. With texels of 0
+/// metres (an object without area), every Gaussian becomes a level.
 LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians, double texelMetres,
                         bool isHalved = false);
 
-/// Texels outside of charts that know where the surface goes on: 3.5 standard deviations of the widest level, but 64 at
-/// most; a power of two.
+/// Width of the gutter around charts, whose texels store where the surface continues: 3.5 standard deviations of the
+/// widest level, 2 to 64 texels; a power of two.
 int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres);
-/// Around what the coordinates 0 to 1 cover.
+/// Width of the border around the texture coordinates 0 to 1.
 int borderTexels(int gutterTexels, int sideTexels);
-/// On a surface of which the coordinates 0 to 1 cover `sideMetres`: they lie on the texels within the border
-/// (UvAtlas::placeOf()).
+/// Mean texel size if the texture coordinates 0 to 1 span `sideMetres` of the surface. They cover the texels within the
+/// border (UvAtlas::placeOf()).
 double texelMetresOf(double sideMetres, int sideTexels, int borderTexels);
 
-/// The view's picture of spread light: a square cell for each object, and above all cells one texel for each, in rows
-/// as they lie.
+/// Layout of a view's image of diffused irradiance: a square cell per object and, above all cells, one parameter texel
+/// per cell in the same grid.
 struct SpreadLightAtlas {
     int columns = 1, rows = 1;
     int sideTexels = 0;
     glm::ivec2 texels() const { return {columns * sideTexels, rows * (sideTexels + 1)}; }
     glm::ivec2 place(int cell) const { return {cell % columns, cell / columns}; }
     glm::ivec2 corner(int cell) const { return place(cell) * sideTexels; }
-    /// rgb LightSpread::inPixels, a the border of the object's UV atlas in texels.
+    /// The parameter texel of a cell: rgb LightSpread::inPixels, a the border of the object's UV atlas in texels.
     glm::ivec2 ofCell(int cell) const { return place(cell) + glm::ivec2(0, rows * sideTexels); }
 };
 SpreadLightAtlas spreadLightAtlas(std::size_t objects, int sideTexels);
@@ -101,13 +101,13 @@ struct GpuUvAtlas {
     std::vector<DiffusionTile> tiles;
 };
 
-/// The UV atlases of a scene, made when they are asked for.
+/// The UV atlases of a scene, made on demand.
 class GpuUvAtlases {
 public:
     explicit GpuUvAtlases(const scenes::Scene& scene) : scene_(scene) {}
     /// Throws InputError where the object's texture coordinates do not unwrap it.
     const GpuUvAtlas& of(const SpreadingObject& object, int sideTexels, int gutterTexels);
-    /// Drops all, since they hold for meshes and nodes as they were.
+    /// Drops all atlases, after meshes or nodes have changed.
     void forget() { atlases_.clear(); }
 
 private:
@@ -118,13 +118,13 @@ private:
 /// Throws InputError where the object's texture coordinates do not unwrap it.
 void requireUnwrapped(const scenes::Scene& scene, const SpreadingObject& object);
 
-/// What is known of the cells of a view's SpreadLightAtlas from earlier frames, tile by tile: the light that enters the
-/// surface, and the light that leaves it, spread. Both hold for the key that they were computed under (diffusionKey()).
+/// Which tiles of a view's SpreadLightAtlas are valid from earlier frames, per cell: `lit` is incoming irradiance,
+/// `stored` is diffused, outgoing light. Both are valid for the key they were computed with (diffusionKey()).
 class DiffusionMemory {
 public:
-    /// Forgets the light that leaves where the view's atlas is not held.
+    /// Invalidates the stored light if the view's atlas was not kept.
     void begin(std::size_t cells, bool holdsAtlas);
-    /// How many tiles the next frame may light, of those it lacks; none: all. Spreading kSpreadTiles takes the place of
+    /// Limits how many missing tiles the next frame may light; none: all. Diffusing kSpreadTiles tiles counts as
     /// lighting one.
     void limit(std::optional<std::size_t> tiles) { tilesLeft_ = tiles; }
     bool isLimited() const { return tilesLeft_.has_value(); }
@@ -132,17 +132,17 @@ public:
     void forget() { cells_.assign(cells_.size(), {}); }
     void forgetLit(std::size_t cell) { cells_[cell].lit = {}; }
 
-    /// Those of the tiles whose light that leaves, or that enters, is not known.
+    /// The tiles whose diffused (missing) or incoming (unlit) light is not valid.
     TileSet missing(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
     TileSet unlit(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
     void hold(std::size_t cell, std::uint64_t key, const TileSet& lit, const TileSet& spread);
-    /// No light is known there, and the atlas says so.
+    /// Records tiles that the atlas marks as having no light.
     void holdBlank(std::size_t cell, std::uint64_t key, const TileSet& blank);
 
-    /// Whether the frame has nothing to do for the tiles: they are known, or it may add no light and the atlas says
-    /// what is not.
+    /// Whether the tiles need no work: all are valid, or the limit is used up and the atlas marks the others as having
+    /// no light.
     bool isIdle(std::size_t cell, std::uint64_t key, const TileSet& tiles) const;
-    /// What the frame is to compute of those tiles, which is taken off its limit. `variancesSquareMetres` as of
+    /// Returns the frame's work for the tiles and subtracts it from the limit. `variancesSquareMetres`: see
     /// diffusionWork().
     DiffusionWork next(std::size_t cell, std::uint64_t key, const std::vector<DiffusionTile>& atlas,
                        const std::vector<double>& variancesSquareMetres, const TileSet& tiles);
@@ -152,7 +152,7 @@ private:
         std::optional<std::uint64_t> key;
         TileSet lit, stored, blank;
     };
-    /// Tiles of the atlas of which pixels may find what was never written.
+    /// Tiles of the atlas that were never written.
     TileSet unwritten(std::size_t cell, std::uint64_t key, int side) const;
 
     std::vector<Cell> cells_;

@@ -9,10 +9,10 @@ namespace tessera::frame {
 
 namespace {
 
-/// Fronts that face away by less than this share of their distance are taken for seen: corners move by a fraction of a
-/// pixel when they are drawn, which turns small triangles.
+/// Triangles that face away by less than this cosine count as visible: rasterisation snaps vertices to subpixels, which
+/// may turn small triangles.
 constexpr double kFacingMargin = 0.1;
-/// Smaller tiles have triangles that any such move may turn.
+/// Tiles below this size are never culled as back-facing: snapping may turn any of their triangles.
 constexpr double kLeastTilePixels = 4.0;
 
 int tileOf(const glm::ivec2& texel, int side) {
@@ -33,7 +33,7 @@ void visitLookedUp(const glm::dvec2& place, int sideTexels, Visit visit) {
             visit(glm::clamp(glm::ivec2(u, v), glm::ivec2(0), glm::ivec2(sideTexels - 1)));
 }
 
-/// A triangle as it is looked up: its corners in texels and in the world, and how far beside it rounding may look.
+/// A triangle in the UV atlas: its corners in texels and in world space, and the rounding margin of lookups.
 struct Looked {
     std::array<glm::dvec2, 3> places;
     std::array<glm::dvec3, 3> cornersWS;
@@ -65,10 +65,10 @@ struct Looked {
     }
 };
 
-/// How many texels to either side the taps of a Gaussian reach (shaders/passes/diffusion_spread.frag).
+/// Radius of a Gaussian's taps in texels (shaders/passes/diffusion_spread.frag).
 int reachTexels(double varianceSquareMetres, double stepMetres, int sideTexels) {
     if (!(stepMetres > 0.0)) return sideTexels;
-    // The last tap may lie beyond the reach, by as much as taps are apart.
+    // The last tap may lie beyond the radius by up to the tap spacing.
     const double reach =
         std::ceil((DIFFUSION_REACH + DIFFUSION_TAP_SHARE) * std::sqrt(varianceSquareMetres) / stepMetres) + 2.0;
     return int(std::min(reach, double(sideTexels)));
@@ -82,13 +82,13 @@ public:
             if (tiles.has(tile)) addTile(tile);
     }
 
-    /// Those and the ones that texels outside of charts take their light from.
+    /// Adds the tiles that gutter texels read their light from.
     void addContinued(const std::vector<DiffusionTile>& tiles) {
         const TileSet own = this->tiles();
         for (int tile = 0; tile < int(boxes_.size()); ++tile)
             if (own.has(tile)) std::ranges::for_each(tiles[std::size_t(tile)].continuesIn, [&](int i) { addTile(i); });
     }
-    /// Those and the ones that lie as far beside them as `reachOf` says.
+    /// A copy whose boxes are widened by `reachOf` texels.
     template <typename Reach>
     NeededTexels widened(const std::vector<DiffusionTile>& tiles, Reach reachOf) const {
         NeededTexels result = *this;
@@ -108,7 +108,7 @@ public:
 
 private:
     struct Box {
-        glm::ivec2 low{std::numeric_limits<int>::max()}, high{-1}; ///< both included
+        glm::ivec2 low{std::numeric_limits<int>::max()}, high{-1}; ///< both inclusive
         bool isEmpty() const { return high.x < 0; }
     };
 
@@ -164,7 +164,7 @@ TileSet TileSet::first(std::size_t most) const {
 
 std::vector<gpu::Rectangle> TileSet::rectangles(int tileTexels, int sideTexels) const {
     std::vector<gpu::Rectangle> result;
-    std::vector<std::size_t> above; // those that end with the row above
+    std::vector<std::size_t> above; // rectangles that end at the row above
     for (int v = 0; v < side_; ++v) {
         std::vector<std::size_t> own;
         for (int u = 0; u < side_; ++u) {
@@ -196,7 +196,7 @@ std::vector<DiffusionTile> diffusionTiles(const UvAtlas& atlas, const scenes::Me
     const int side = (atlas.sideTexels + kDiffusionTileTexels - 1) / kDiffusionTileTexels;
     std::vector<DiffusionTile> tiles(std::size_t(side) * std::size_t(side));
     const double sign = glm::determinant(glm::dmat3(worldFromObject)) < 0.0 ? -1.0 : 1.0;
-    // The axes first, then how far fronts turn away from them.
+    // The cone axes first, then the cone angles.
     for (const bool measures : {false, true}) {
         for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
             Looked triangle;
@@ -285,7 +285,7 @@ TileSet seenTiles(const std::vector<DiffusionTile>& tiles, const CameraView& vie
         const double distance = glm::distance(view.eyeWS, centerWS);
         if (2.0 * radius < kLeastTilePixels * pixel * (isOrthographic ? 1.0 : distance)) continue;
         if (!isOrthographic && distance <= radius) continue;
-        // A front's share towards the viewer, as a cosine, differs by this from that at the middle.
+        // Largest difference between a triangle's facing cosine and that at the box's centre.
         const double slack = isOrthographic ? 0.0 : radius / distance;
         const glm::dvec3 toViewerWS = isOrthographic ? backWS : (view.eyeWS - centerWS) / distance;
         const double apart = std::acos(std::clamp(glm::dot(tile.axisWS, toViewerWS), -1.0, 1.0));
@@ -301,7 +301,7 @@ DiffusionWork diffusionWork(const std::vector<DiffusionTile>& tiles, const std::
     DiffusionWork work;
     work.store = store;
     work.levels.resize(variances.size());
-    // From the last pass back: what it reads, the one before must have computed.
+    // From the last pass back: each pass must compute what the next one reads.
     NeededTexels needed(store);
     needed.addContinued(tiles);
     for (std::size_t i = variances.size(); i-- > 0;) {

@@ -7,19 +7,19 @@
 #include "renderer/gpu/Commands.h"
 #include "shaders/shared/diffusion.h"
 
-/// Squares of an object's atlas, so that light is computed and spread where a pixel may see it and nowhere else
+/// Square tiles of an object's UV atlas: light is computed and diffused only where a pixel may sample it
 /// (docs/skin.md).
 namespace tessera::frame {
 
 constexpr int kDiffusionTileTexels = DIFFUSION_TILE_TEXELS;
 
-/// Some of the tiles of an atlas.
+/// A set of tiles of an atlas.
 class TileSet {
 public:
     TileSet() = default;
     explicit TileSet(int side, bool all = false) : side_(side), has_(std::size_t(side) * std::size_t(side), all) {}
 
-    int side() const { return side_; } ///< tiles
+    int side() const { return side_; } ///< in tiles
     bool has(int tile) const { return has_[std::size_t(tile)]; }
     void add(int tile) { has_[std::size_t(tile)] = true; }
     void remove(int tile) { has_[std::size_t(tile)] = false; }
@@ -27,7 +27,7 @@ public:
     void remove(const TileSet& other);
     bool isEmpty() const;
     std::size_t count() const;
-    TileSet first(std::size_t most) const; ///< so many of them at most, row by row
+    TileSet first(std::size_t most) const; ///< at most `most` of them, row by row
     /// Disjoint rectangles that cover the set and nothing else, in texels of an atlas of `sideTexels`.
     std::vector<gpu::Rectangle> rectangles(int tileTexels, int sideTexels) const;
     bool operator==(const TileSet&) const = default;
@@ -37,28 +37,28 @@ private:
     std::vector<bool> has_; ///< row by row
 };
 
-/// What is known of a tile.
+/// Bounds of a tile's triangles and texels.
 struct DiffusionTile {
-    // Of all triangles whose pixels may look up a texel of the tile.
+    // All triangles whose pixels may sample the tile:
     scenes::Box3 boxWS;
-    glm::dvec3 axisWS{0.0}; ///< unit; 0: they face all sides
-    double cosine = -1.0;   ///< least of the angles between their fronts and the axis
-    // Of its texels.
+    glm::dvec3 axisWS{0.0}; ///< unit axis of their normal cone; 0: normals in all directions
+    double cosine = -1.0;   ///< smallest cosine between a normal and the axis
+    // Its texels:
     double leastUMetres = 0.0, leastVMetres = 0.0, mostShear = 0.0; ///< UvStep
-    std::vector<int> continuesIn;                                   ///< tiles whose light those outside of charts take
+    std::vector<int> continuesIn;                                   ///< tiles that its gutter texels read
     bool isUsed() const { return !boxWS.empty(); }
 };
 std::vector<DiffusionTile> diffusionTiles(const UvAtlas& atlas, const scenes::Mesh& mesh,
                                           const glm::dmat4& worldFromObject);
 
-/// All that hold anything, or none.
+/// All used tiles, or an empty set.
 TileSet usedTiles(const std::vector<DiffusionTile>& tiles, bool all = true);
-/// Tiles that a pixel of the view may look up. Those outside of the picture are left out, and those whose front faces
-/// away from the viewer, unless both sides are drawn. `marginMetres` is that of isOutside().
+/// Tiles that pixels of the view may sample. Omits tiles outside the frustum and, unless both sides are drawn,
+/// back-facing tiles. `marginMetres`: see isOutside().
 TileSet seenTiles(const std::vector<DiffusionTile>& tiles, const CameraView& view, double marginMetres,
                   bool drawsBothSides);
 
-/// Which tiles each pass must compute so that the light of some tiles is what it would be if all were computed.
+/// Tiles that each pass must compute so that the stored tiles are as if all tiles were computed.
 struct DiffusionWork {
     TileSet light;
     struct Level {
@@ -66,7 +66,7 @@ struct DiffusionWork {
     };
     std::vector<Level> levels; ///< parallel to LightSpread::levels
     TileSet store;
-    TileSet blank = {}; ///< where no light is known, and pixels must be told so
+    TileSet blank = {}; ///< tiles to mark as having no light
 };
 DiffusionWork diffusionWork(const std::vector<DiffusionTile>& tiles, const std::vector<double>& variancesSquareMetres,
                             const TileSet& store);

@@ -18,7 +18,7 @@ scenes::Box3 boxOf(const scenes::Mesh& mesh) {
     return box;
 }
 
-/// The box around a transformed one.
+/// Bounding box of a transformed box.
 scenes::Box3 transformed(const scenes::Box3& box, const glm::dmat4& transform) {
     scenes::Box3 result;
     if (box.empty()) return result;
@@ -86,7 +86,7 @@ DrawList makeDrawList(const scenes::Scene& scene) {
 
 namespace {
 
-/// Extends `area` by the pixels in which a draw's box may be seen.
+/// Extends `area` by the pixels that a draw's box may cover.
 void extend(PixelArea& area, const Draw& draw, const glm::dvec3& objectWS, const CameraView& view) {
     const scenes::Box3& boxWS = draw.boxWS;
     const glm::ivec2 size(view.constants.sizePixels);
@@ -94,12 +94,12 @@ void extend(PixelArea& area, const Draw& draw, const glm::dvec3& objectWS, const
     if (boxWS.empty() || area == whole) return;
     const glm::dvec3 margin(roundingMetres(draw, objectWS, view));
     const glm::dvec3 low = boxWS.min - margin, high = boxWS.max + margin;
-    glm::dvec2 lowest(1.0), highest(-1.0); // of clip space
+    glm::dvec2 lowest(1.0), highest(-1.0); // in normalised device coordinates
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 positionWS(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y,
                                     corner & 4 ? high.z : low.z);
         const glm::dvec4 clip = view.clipFromLS * glm::dvec4(view.positionLS(positionWS), 1.0);
-        if (!(clip.w > 0.0)) { // behind the eye: what lies between may be seen anywhere
+        if (!(clip.w > 0.0)) { // behind the eye: the box may cover any pixel
             area = whole;
             return;
         }
@@ -109,7 +109,7 @@ void extend(PixelArea& area, const Draw& draw, const glm::dvec3& objectWS, const
     const auto pixel = [&](const glm::dvec2& place, double more) {
         return glm::ivec2(glm::clamp((place * 0.5 + 0.5) * glm::dvec2(size) + more, glm::dvec2(0.0), glm::dvec2(size)));
     };
-    // A pixel of margin each way, since rasterisers round vertices to parts of one; and `high` is one beyond.
+    // One pixel of margin each way, since rasterisers snap vertices to subpixels; `high` is exclusive.
     const PixelArea own{pixel(lowest, -1.0), pixel(highest, 2.0)};
     if (own.empty()) return;
     area = area.empty() ? own : PixelArea{glm::min(area.low, own.low), glm::max(area.high, own.high)};

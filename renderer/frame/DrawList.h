@@ -16,13 +16,13 @@ struct Draw {
     int material = 0;
     int node = 0;
     int instance = 0;        ///< place among the mesh instances of all nodes, in document order
-    bool mirrored = false;   ///< the node's transform turns the winding round
-    bool castsShadow = true; ///< MeshInstance::castsShadow; the material must cast some too
-    int spreadingNumber = 0; ///< 1 + its cell in the atlas of light that has spread (Diffusion.h); 0: it has none
-    float largestColor = 0;  ///< of the mesh's vertex colours, any channel, 1 or more; 0 without vertex colours
-    scenes::Box3 boxWS{};    ///< around the mesh's own box; empty without vertices
-    double reachMetres = 0; ///< the largest sum of magnitudes that fp32 adds a vertex up from, without the node's place
-    glm::dvec3 centerWS{0}; ///< of the mesh's box, for the order of transparent draws
+    bool mirrored = false;   ///< the node's transform flips the winding
+    bool castsShadow = true; ///< MeshInstance::castsShadow; the material must cast shadows too
+    int spreadingNumber = 0; ///< 1 + its cell in SpreadLightAtlas (Diffusion.h); 0: none
+    float largestColor = 0;  ///< largest vertex colour channel of the mesh, at least 1; 0 without vertex colours
+    scenes::Box3 boxWS{};    ///< bounds of the mesh's transformed box; empty without vertices
+    double reachMetres = 0;  ///< largest sum of term magnitudes in a vertex's fp32 transform, without the translation
+    glm::dvec3 centerWS{0};  ///< of the mesh's box, for sorting transparent draws
 };
 
 /// Draws [first, first + count) of a view that share material and winding.
@@ -33,7 +33,7 @@ struct Batch {
     bool mirrored = false;
 };
 
-/// Draws [first, first + count) of a view of which passes want the depth alone.
+/// Draws [first, first + count) of a view for depth-only passes.
 struct DepthBatch {
     int first = 0;
     int count = 0;
@@ -41,7 +41,7 @@ struct DepthBatch {
     bool doubleSided = false;
     std::optional<int> maskedBy; ///< the alpha-masked material to sample; none: opaque
 };
-/// Merges neighbouring batches that differ only in an unmasked material. The order stays.
+/// Merges neighbouring batches that differ only in unmasked materials; keeps the order.
 std::vector<DepthBatch> depthBatches(const scenes::Scene& scene, std::span<const Batch> batches);
 
 /// Everything the scene draws. Opaque and masked draws come first, gathered by material so that binds are few; the
@@ -53,22 +53,22 @@ struct DrawList {
 };
 DrawList makeDrawList(const scenes::Scene& scene);
 
-/// By how much a draw's vertices may lie outside its box by rounding. To fp32: some 2^-24 of all that they are added up
-/// from, within their object, from there to the origin of lighting space, and where they end; this is far more. The box
-/// is in the coordinates of the world in double precision, of which four roundings are 2^-51.
+/// Largest distance in metres by which rounding moves a draw's vertices out of its box. fp32 errors are about 2^-24 of
+/// the vertex in its object, of the offset from the origin of lighting space, and of their sum; 1e-5 is far more. The
+/// box is in double-precision world coordinates, where four roundings are 2^-51.
 double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const CameraView& view);
 
 /// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of RWS-from-object (world axes at the origin of
-/// lighting space, as shaders/shared/frame.h says) and of the cofactor matrix of LS-from-object, which carries normals
-/// through any transform, singular ones too; times the determinant's sign. Row 0's w is that sign, times 1 +
-/// Draw::spreadingNumber. Row 1's w is Draw::largestColor. It also tells meshes without vertex colours: white would not
-/// do, since interpolating 1 in perspective does not always give 1. Row 2's w is 1 + Draw::instance.
+/// lighting space, shaders/shared/frame.h) and of the cofactor matrix of LS-from-object times the sign of its
+/// determinant, which transforms normals by any matrix, singular ones too. Normal row 0's w is that sign times 1 +
+/// Draw::spreadingNumber. Row 1's w is Draw::largestColor; its 0 flags meshes without vertex colours, since white
+/// interpolated in perspective is not always exactly 1. Row 2's w is 1 + Draw::instance.
 struct DrawRows {
     glm::vec4 position[3];
     glm::vec4 normal[3];
 };
 
-/// Pixels [low, high) of a picture, lower-left origin.
+/// Pixels [low, high) of an image, lower-left origin.
 struct PixelArea {
     glm::ivec2 low{0};
     glm::ivec2 high{0};
@@ -76,17 +76,16 @@ struct PixelArea {
     bool operator==(const PixelArea&) const = default;
 };
 
-/// What a view draws of a list. Rows and batches speak of the list's draws that may be seen, in its order.
+/// The visible draws of a view. Rows and batches index `seen`, which keeps the list's order.
 struct ViewDraws {
     std::vector<int> seen;      ///< index into DrawList::draws
     std::vector<DrawRows> rows; ///< parallel to seen
     std::vector<Batch> opaque;
     std::vector<Batch>
         transparent;        ///< one per draw, far to near by the view depth of their boxes' centres, ties by index
-    PixelArea opaquePixels; ///< no pixel outside shows an opaque surface; by the draws' boxes
+    PixelArea opaquePixels; ///< bounds of the pixels with opaque surfaces, from the draws' boxes
 };
-/// With `culls` draws whose boxes lie outside the view are left out.
-/// With `isWanted` only those of which it is true are drawn.
+/// `culls` omits draws whose boxes lie outside the view. `isWanted` filters draws; empty: all.
 ViewDraws makeViewDraws(const DrawList& list, const CameraView& view, bool culls,
                         const std::function<bool(const Draw&)>& isWanted = {});
 

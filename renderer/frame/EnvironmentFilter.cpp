@@ -21,7 +21,7 @@ namespace {
 using shared::filteredSide, shared::filteredTop;
 using std::numbers::pi;
 
-/// All directions on the square of an unfolded octahedron, by texels with their values in their middles.
+/// An octahedral map with values at texel centres.
 struct Octahedron {
     int side = 0;
     std::vector<glm::vec3> texels; ///< row after row
@@ -29,7 +29,7 @@ struct Octahedron {
     static glm::dvec2 codeOfTexel(int x, int y, int side) {
         return glm::dvec2(2.0 * x + 1.0, 2.0 * y + 1.0) / double(side) - 1.0;
     }
-    /// Past an edge the square goes on at the mirrored place of the same edge.
+    /// Past an edge, the map continues at the mirrored position along the same edge.
     const glm::vec3& at(int x, int y) const {
         const auto fold = [this](int& beyond, int& along) {
             if (beyond >= 0 && beyond < side) return;
@@ -52,15 +52,15 @@ Octahedron makeOctahedron(int side, const Value& value) {
     return result;
 }
 
-/// Solid angle of a texel: the octahedron's plane seen from its middle.
+/// Solid angle of a texel, from its area on the octahedron's face.
 double solidAngleOf(int x, int y, int side) {
     const glm::dvec3 direction = directionOf(Octahedron::codeOfTexel(x, y, side));
     const double sum =
-        std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z); // 1 / distance of the plane
+        std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z); // 1 / distance to the octahedron
     return 4.0 / (double(side) * side) * sum * sum * sum;
 }
 
-/// A level with one more texel all around.
+/// A level with a border of one texel.
 class Bordered {
 public:
     explicit Bordered(const Octahedron& level) : side_(float(level.side)), pitch_(std::size_t(level.side) + 2) {
@@ -103,12 +103,12 @@ Octahedron smaller(const Octahedron& source) {
 struct LobeSample {
     glm::vec3 direction;
     float weight;
-    int level;   ///< of the source, whose texels are as far apart as the samples
-    float share; ///< of the next level
+    int level;   ///< source level whose texel spacing matches that of the samples
+    float share; ///< weight of the next level
 };
 
-/// Of D around the normal, which is also the viewer's direction: Karis 2013, with levels as in Krivanek and Colbert
-/// 2008, "Real-time Shading with Filtered Importance Sampling".
+/// Samples D's lobe with the normal as view direction (Karis 2013), with levels as in Krivanek and Colbert 2008,
+/// "Real-time Shading with Filtered Importance Sampling".
 std::vector<LobeSample> lobeSamples(double alpha, int count, int sourceSide, int levels) {
     std::vector<LobeSample> samples;
     double weights = 0.0;
@@ -161,10 +161,10 @@ double alphaOfLevel(int level) {
 FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::function<void(double)>& progress) {
     const int halvings = filteredHalvingsOf(map), side = ENVIRONMENT_MOST_SIDE >> halvings;
     FilteredEnvironment result;
-    progress(0.0); // what comes before the levels takes a while too
+    progress(0.0); // the steps before the levels take a while too
     const LatitudeMap source = coarserMap(map, 4 * side, 2 * side);
     progress(0.0);
-    // Each texel by 4 x 4 places of it, which no texel of the map falls between.
+    // 4 x 4 samples per texel, dense enough to hit every texel of the map.
     const Octahedron resampled = makeOctahedron(side, [&](int x, int y) {
         constexpr int kPlaces = 4;
         glm::dvec3 sum(0.0);
@@ -177,7 +177,7 @@ FilteredEnvironment filterEnvironment(const scenes::Image& map, const std::funct
     result.irradiance = irradianceOf(map, kIrradianceOrder, ENVIRONMENT_IRRADIANCE_SIDE);
     std::vector<Bordered> sources;
     for (Octahedron level = resampled; level.side > 1; level = smaller(level)) sources.emplace_back(level);
-    // The smaller a level, the more samples: about as much work for each of a large map.
+    // Smaller levels take more samples, so that all levels of a large map cost about the same.
     double work = 0.0, done = 0.0;
     const auto samplesOf = [halvings](int level) {
         constexpr int kLeastSamples = 32, kLeastOfSmallMaps = 256, kMostSamples = 1024;

@@ -14,8 +14,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// Normalised associated Legendre functions of the cosine and sine to the top: (l, m) at l (l + 1) / 2 + m. Source:
-/// Press et al. 2007, "Numerical Recipes", section 6.7.
+/// Normalised associated Legendre functions, by cosine and sine of the polar angle; (l, m) at l (l + 1) / 2 + m.
+/// Source: Press et al. 2007, "Numerical Recipes", section 6.7.
 std::vector<double> legendre(int order, double cosine, double sine) {
     std::vector<double> p(std::size_t(order + 1) * std::size_t(order + 2) / 2);
     const auto at = [&](int l, int m) -> double& { return p[std::size_t(l * (l + 1) / 2 + m)]; };
@@ -33,7 +33,7 @@ std::vector<double> legendre(int order, double cosine, double sine) {
     return p;
 }
 
-/// What a clamped cosine keeps of harmonics of an order.
+/// Factor by which convolution with the clamped cosine scales harmonics of degree l.
 double cosineFactor(int l) {
     if (l == 0) return pi;
     if (l == 1) return 2.0 * pi / 3.0;
@@ -44,13 +44,13 @@ double cosineFactor(int l) {
 }
 
 struct Harmonics {
-    std::vector<glm::dvec3> cosines, sines; ///< as legendre()
+    std::vector<glm::dvec3> cosines, sines; ///< indexed as in legendre()
 };
 
 Harmonics harmonicsOf(const LatitudeMap& map, int order) {
     const std::size_t count = std::size_t(order + 1) * std::size_t(order + 2) / 2;
     Harmonics sum{std::vector<glm::dvec3>(count, glm::dvec3(0.0)), std::vector<glm::dvec3>(count, glm::dvec3(0.0))};
-    // By column, cosine and sine of its longitude and of m times that.
+    // Per column: cosine and sine of its longitude, and of m times its longitude.
     std::vector<glm::dvec2> longitudes(std::size_t(map.width)), turns(std::size_t(map.width));
     for (int x = 0; x < map.width; ++x) {
         const double longitude = 2.0 * pi * ((x + 0.5) / map.width - 0.5);
@@ -81,7 +81,7 @@ Harmonics harmonicsOf(const LatitudeMap& map, int order) {
     return sum;
 }
 
-/// A small map with its interpolation as texels of their own.
+/// Resamples a small map by interpolation to at least `width` x `width` / 2 texels.
 LatitudeMap atLeast(const LatitudeMap& map, int width) {
     const auto parts = [](int size, int least) { return std::max((least + size - 1) / size, 1); };
     const int across = parts(map.width, width), down = parts(map.height, width / 2);

@@ -44,11 +44,11 @@ shared::EnvironmentConstants packEnvironment(const scenes::Environment& environm
                                              const CameraView& view) {
     const double turn =
         glm::radians(double(environment.rotationDegrees) + double(settings.environment.rotationDegrees));
-    // What is turned counter-clockwise is looked up the other way.
+    // A map rotated counter-clockwise is looked up with the inverse rotation.
     const glm::dmat4 mapFromWorld = glm::rotate(glm::dmat4(1.0), -turn, glm::dvec3(0.0, 1.0, 0.0));
     shared::EnvironmentConstants constants;
     constants.mapFromLS = glm::mat4(mapFromWorld * glm::dmat4(glm::transpose(view.lsFromWorld)));
-    // Finite, so that a black map stays black.
+    // Clamped to finite values: a black map times infinity would be NaN.
     const double intensity = std::min(double(environment.intensity) * double(settings.environment.intensity),
                                       double(std::numeric_limits<float>::max()));
     constants.light = glm::vec4(float(intensity), float(filteredHalvingsOf(environment.map)), 0.0f, 0.0f);
@@ -63,7 +63,7 @@ LatitudeMap environmentTexels(const scenes::Image& picture, std::vector<double>&
     for (int y = 0; y < map.height; ++y) {
         const double solidAngle = map.solidAngle(y);
         for (int x = 0; x < map.width; ++x) {
-            // Over a texel the interpolated radiance has the average 1/8, 6/8, 1/8 of its row, and so of its column.
+            // The mean of bilinearly interpolated radiance over a texel weights rows and columns by 1/8, 6/8, 1/8.
             double average = 0.0;
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i) {
@@ -92,7 +92,7 @@ std::vector<glm::vec4> makeEnvironmentSamples(const LatitudeMap& map, const std:
         const std::size_t at = std::size_t(found - summed.begin());
         const double before = at == 0 ? 0.0 : summed[at - 1], part = *found - before;
         const int x = int(at % std::size_t(map.width)), y = int(at / std::size_t(map.width));
-        // Within the texel: what is left of u to the right, v by solid angle downwards.
+        // Within the texel: the rest of u to the right, v by solid angle downwards.
         const double right = part > 0.0 ? std::clamp((u - before) / part, 0.0, 1.0) : 0.5;
         const double cosine = std::lerp(map.cosineOfRow(y), map.cosineOfRow(y + 1), v);
         const glm::dvec3 direction = scenes::directionInMap(
@@ -115,7 +115,7 @@ EnvironmentShape environmentShape(const scenes::Image& map) {
 EnvironmentGpu::EnvironmentGpu(const scenes::Environment& environment,
                                std::shared_ptr<const FilteredEnvironment> filtered)
     : environment_(environment), known_(std::move(filtered)) {
-    const int most = gpu::Context::current()->capabilities().maxTextureSize; // before it is filtered, which takes long
+    const int most = gpu::Context::current()->capabilities().maxTextureSize; // checked before the slow filtering
     const scenes::Image& map = environment.map;
     if (std::max(map.width, map.height) > most)
         throw InputError(
@@ -139,7 +139,7 @@ const gpu::Buffer& EnvironmentGpu::samples() {
     auto samples =
         std::make_unique<gpu::Buffer>(gpu::Buffer::of("environment_samples", makeEnvironmentSamples(texels, summed)));
     map();
-    map_->upload(0, texels.texels); // with the densities, which nothing else reads
+    map_->upload(0, texels.texels); // with the densities, which only the samples need
     samples_ = std::move(samples);
     return *samples_;
 }

@@ -10,13 +10,13 @@ namespace tessera::frame {
 
 namespace {
 
-/// They stand side by side, as the G-buffer numbers their maskings one after the other.
+/// Microfacet models are contiguous, since the G-buffer numbers their maskings consecutively.
 constexpr scenes::MaterialModel kFirstMicrofacet =
     std::ranges::find_if(scenes::materialModels(), &scenes::MaterialModelInfo::isMicrofacet)->model;
 static_assert(std::ranges::is_partitioned(scenes::materialModels().subspan(std::size_t(kFirstMicrofacet)),
                                           &scenes::MaterialModelInfo::isMicrofacet));
 
-// What a surface is of which nothing is known (shaders/lib/surface/surface.glsl).
+// The default model of a surface (shaders/lib/surface/surface.glsl) is unlit.
 static_assert(!scenes::materialModels().front().isLit);
 
 /// The number of a model in a shader.
@@ -42,7 +42,7 @@ void addModels(const FeatureSet& features, Defines& defines) {
     };
     const auto isLit = [](const MaterialModelInfo& model) { return model.isLit; };
     addList("LIT_MODELS", "{}u", ", ", "", isLit);
-    // Whether a surface's model is one of those; false is known before the shader runs.
+    // Macros that test a model. "false" where the scene has no such model, so that shader compilers drop the branch.
     const auto addQuestion = [&](const char* name, const auto& isOne) {
         addList(name, "(model) == {}u", " || ", "false", isOne);
         defines.back().second = "(" + defines.back().second + ")";
@@ -78,7 +78,7 @@ void addLightTypes(const FeatureSet& features, Defines& defines) {
         if (type.reach == scenes::LightReach::Cone) cones.push_back(isType);
         if (type.isArea) areas.push_back(isType);
     }
-    // Whether a light's type is one of those.
+    // Expressions that test a light's type.
     const auto any = [](const std::vector<std::string>& types) {
         return types.empty() ? "(false)" : fmt::format("({})", fmt::join(types, " || "));
     };

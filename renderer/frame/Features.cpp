@@ -100,7 +100,7 @@ bool FeatureSet::any(bool (*isOne)(const scenes::LightTypeInfo&)) const {
 }
 
 bool FeatureSet::litFromBehind() const {
-    // A clear coat has a normal of its own.
+    // A clear coat has a separate normal.
     return (*this)[Feature::Clearcoat] || subsurfaceRows() ||
            any([](const scenes::MaterialModelInfo& model) { return model.isLitFromBehind; });
 }

@@ -8,8 +8,8 @@
 
 #include "scenes/Scene.h"
 
-/// What a scene uses, derived once from the scene (MaterialFeatures.h). The set decides shader defines, G-buffer
-/// channels and vertex streams; other features are left out, and the picture stays the same to the last bit.
+/// The features that a scene uses, derived once from the scene (MaterialFeatures.h). They determine shader defines,
+/// G-buffer channels and vertex streams. Omitting the other features leaves the image bit-identical.
 namespace tessera::frame {
 
 enum class Feature : std::uint8_t {
@@ -18,11 +18,11 @@ enum class Feature : std::uint8_t {
     FirstLightType, // those of light types follow scenes::LightType
     LastLightType = FirstLightType + scenes::kLightTypeCount - 1,
     AttenuationLights,
-    LightPictures, // the radiance of lights varies over their surface
+    LightPictures, // textured area lights
     FirstTexture,  // those of textures follow scenes::TextureSlot
     LastTexture = FirstTexture + scenes::kTextureSlotCount - 1,
     TextureTransform,
-    MixedFilters, // samplers that take single texels on one side of the choice between magnifying and minifying
+    MixedFilters, // samplers with nearest filtering for only one of magnification and minification
     TexCoord1,
     VertexColor,
     TangentSpaceNormals,
@@ -33,40 +33,40 @@ enum class Feature : std::uint8_t {
     Anisotropy,
     Clearcoat,
     Sheen,
-    Iridescence,  // thin films on surfaces, which change what they reflect by the angle to the viewer
-    Transmission, // light passes through surfaces
-    Volume,       // of which some have a body that bends and absorbs it
-    Dispersion,   // of which some bend each colour by another angle
-    Mirrors,      // lobes that may be narrower than those an environment is filtered by; only where one lights surfaces
+    Iridescence,  // thin films on surfaces, whose reflectance depends on the view angle
+    Transmission, // surfaces transmit light
+    Volume,       // some of them enclose a volume that refracts and absorbs light
+    Dispersion,   // some volumes refract each colour by a different angle
+    Mirrors,      // lobes that may be narrower than the filtered environment's; only with environment lighting
     AlphaMask,
     Blend,
     DoubleSided,
     Hook,             // the scene's own GLSL may change surfaces, and reads texture coordinates
-    VaryingMaterials, // values of a material change over a surface, so each pixel must hold its own
+    VaryingMaterials, // material values vary over a surface, so each pixel stores them
     OrthographicCamera,
-    Environment, // lights surfaces; of lit pictures with lit models
-    Shadows,     // of lights in view that casters may hide
-    SoftShadows, // of such lights with a size
+    Environment, // lights surfaces; only lit views with lit models
+    Shadows,     // lights in view that casters may occlude
+    SoftShadows, // such lights with a size
     ShadowMaps,  // the shadows are looked up in maps, not traced
     ShadowLift,  // shadow rays of smooth-shaded triangles start above the triangle; only with shadows
     SubsurfaceWrap,
-    SubsurfacePassage,   // light passes through surfaces; only where some light casts shadows
-    SubsurfaceDiffusion, // light has spread over surfaces before they are drawn; only of lit pictures
+    SubsurfacePassage,   // light transmitted through thin parts; only if a light casts shadows
+    SubsurfaceDiffusion, // irradiance is diffused before surfaces are drawn; only lit views
     Count
 };
 inline constexpr std::size_t kFeatureCount = static_cast<std::size_t>(Feature::Count);
 
-/// That some surface has the model.
+/// Some surface has the model.
 constexpr Feature featureOf(scenes::MaterialModel model) {
     return static_cast<Feature>(static_cast<std::size_t>(Feature::FirstModel) + static_cast<std::size_t>(model));
 }
 
-/// That some light of the type is on and may be in view.
+/// Some light of the type is on and may be in view.
 constexpr Feature featureOf(scenes::LightType type) {
     return static_cast<Feature>(static_cast<std::size_t>(Feature::FirstLightType) + static_cast<std::size_t>(type));
 }
 
-/// That some material has a texture there.
+/// Some material has a texture in the slot.
 constexpr Feature featureOf(scenes::TextureSlot slot) {
     return static_cast<Feature>(static_cast<std::size_t>(Feature::FirstTexture) + static_cast<std::size_t>(slot));
 }
@@ -75,11 +75,11 @@ struct FeatureInfo {
     Feature feature;
     std::string define; ///< HAS_<define> is 0 or 1 in every shader
     std::string what;   ///< what is left out without it
-    std::string absent; ///< why it is left out; of shadows leftOut() (FrameSpec.h) says more
+    std::string absent; ///< why it is left out; leftOut() (FrameSpec.h) is more specific about shadows
 };
 std::span<const FeatureInfo> featureTable();
 
-/// The name of a model, type or slot, as defines have it.
+/// The upper-case name of a model, type or slot, for defines.
 std::string inCapitals(std::string_view name);
 
 struct FeatureSet {
@@ -99,26 +99,26 @@ struct FeatureSet {
     bool glossyModels() const;  ///< models with a highlight
     bool microsurfaces() const; ///< models with more parameters than colours
     bool ggxModels() const;     ///< models with a GGX lobe
-    bool tangentFrame() const;  ///< surfaces keep a tangent
-    bool tangents() const;      ///< meshes bring tangents
+    bool tangentFrame() const;  ///< surfaces store a tangent
+    bool tangents() const;      ///< meshes provide tangents
     bool textures() const;
-    bool texCoords() const;      ///< meshes bring texture coordinates
-    bool subsurfaceRows() const; ///< surfaces of which lighting reads SubsurfaceConstants
-    bool enteringLight() const;  ///< surfaces that light enters
+    bool texCoords() const;      ///< meshes provide texture coordinates
+    bool subsurfaceRows() const; ///< surfaces whose SubsurfaceConstants lighting reads
+    bool enteringLight() const;  ///< surfaces with subsurface scattering
     bool anyLights() const;
     bool placedLights() const;      ///< lights with a position
     bool coneLights() const;        ///< lights of LightReach::Cone
-    bool areaLights() const;        ///< lights of a surface
-    bool lightShapes() const;       ///< lights of which shaders read LightShapeTexels
-    bool lightShadowTexels() const; ///< lights of which shaders read LightShadowTexels
+    bool areaLights() const;        ///< lights with an emitting surface
+    bool lightShapes() const;       ///< lights whose LightShapeTexels shaders read
+    bool lightShadowTexels() const; ///< lights whose LightShadowTexels shaders read
     bool operator==(const FeatureSet&) const = default;
 
 private:
-    bool any(bool (*isOne)(const scenes::MaterialModelInfo&)) const; ///< whether one of the set's models is so
-    bool any(bool (*isOne)(const scenes::LightTypeInfo&)) const;     ///< whether one of the set's light types is so
+    bool any(bool (*isOne)(const scenes::MaterialModelInfo&)) const; ///< whether any model of the set qualifies
+    bool any(bool (*isOne)(const scenes::LightTypeInfo&)) const;     ///< whether any light type of the set qualifies
 };
 
-/// Everything there is.
+/// All features.
 FeatureSet allFeatures();
 
 } // namespace tessera::frame

@@ -10,7 +10,7 @@ namespace tessera::frame {
 
 namespace {
 
-/// What GLSL makes an array of. Where no driver was asked, nothing is drawn either: all samples lie in the middle.
+/// GLSL list of the sample positions. Without a driver nothing is drawn, and all samples lie at the pixel centre.
 std::string samplePlaces(const FrameSpec& spec) {
     std::vector<glm::vec2> places = spec.settings.samplePlaces;
     places.resize(std::size_t(spec.samples), glm::vec2(0.5f));

@@ -3,10 +3,10 @@
 
 namespace tessera::frame {
 
-/// How many samples a pixel has, and where.
+/// Defines for the number and positions of a pixel's samples.
 Defines sampleDefines(const FrameSpec& spec);
 
-/// What every geometry and lighting shader of the frame is compiled with.
+/// Defines of every geometry and lighting shader of the frame.
 Defines frameDefines(const FrameSpec& spec);
 
 } // namespace tessera::frame

@@ -110,7 +110,7 @@ LightListHandles LightListHandles::read(graph::PassBuilder& pass) const {
 }
 
 void LightListHandles::bind(const graph::PassContext& context) const {
-    // A buffer that grows may be larger than the largest block.
+    // Binds only the used bytes: a growing buffer may exceed the maximum block size.
     const auto bindUsed = [&](std::uint32_t slot, graph::BufferHandle handle, std::size_t least) {
         gpu::bindStorageBuffer(slot, context.buffer(handle), 0, std::max(context.bytes(handle), least));
     };

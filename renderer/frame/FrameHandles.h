@@ -14,15 +14,15 @@
 #include "renderer/frame/ShadowMemory.h"
 #include "renderer/graph/Graph.h"
 
-/// Inputs that several passes have in common, as typed handles. `read` declares in a pass's setup that the pass reads
-/// them, `bind` binds them while the pass runs. Their creator sets every member.
+/// Typed handles of inputs that several passes share. `read` declares the reads in a pass's setup, `bind` binds them
+/// while the pass runs. Their creator sets every member.
 namespace tessera::frame {
 
-/// Memory that light lists are built in on the CPU, kept from frame to frame.
+/// Buffers for building light lists on the CPU, kept from frame to frame.
 struct LightListMemory {
     culling::LightListBuilder builder;
     std::vector<float> depth, transparentDepth;
-    std::vector<std::uint32_t> normals; ///< words of the G-buffer's texture that holds them
+    std::vector<std::uint32_t> normals; ///< words of the G-buffer texture with the normals
 };
 
 /// The CPU's data of a view while its frame runs. Passes get a pointer to it, which is null if the frame is only
@@ -30,24 +30,24 @@ struct LightListMemory {
 struct DrawnView {
     PreparedView prepared;
     const SceneGpu* scene = nullptr;
-    EnvironmentGpu* environment = nullptr; ///< where the view has use for it
+    EnvironmentGpu* environment = nullptr; ///< if the view uses it
     LobesGpu* lobes = nullptr;             ///< likewise
     LightPicturesGpu* lightPictures = nullptr;
     ViewDraws draws;
     LightListMemory* listMemory = nullptr;
-    ShadowMemory* shadowMemory = nullptr; ///< where the view has shadow maps
+    ShadowMemory* shadowMemory = nullptr; ///< if the view has shadow maps
 
-    /// An object that light spreads over, drawn into its texels.
-    struct SpreadingView;                       // holds a DrawnView, so no initializer may need it whole
+    /// A diffusing object, drawn into its UV atlas.
+    struct SpreadingView;                       // contains a DrawnView, so no initializer may need it complete
     std::vector<SpreadingView> spreadingViews;  ///< by cell of the view's SpreadLightAtlas
-    DiffusionMemory* diffusionMemory = nullptr; ///< where the view has any
-    std::function<void()> spreadOne = {};       ///< called when the light of an object was spread; may be empty
+    DiffusionMemory* diffusionMemory = nullptr; ///< if the view has diffusing objects
+    std::function<void()> spreadOne = {};       ///< called after an object's light is diffused; may be empty
 };
 struct DrawnView::SpreadingView {
     DrawnView drawn;
     const GpuUvAtlas* uvAtlas = nullptr;
-    std::uint64_t key = 0; ///< of all that its light is computed from
-    TileSet seen;          ///< of the UV atlas, by the view
+    std::uint64_t key = 0; ///< hash of all inputs of its light
+    TileSet seen;          ///< tiles of the UV atlas that the view may sample
 };
 
 /// The camera of a view.
@@ -58,7 +58,7 @@ struct ViewHandles {
     void bind(const graph::PassContext& context) const;
 };
 
-/// Light from everywhere (EnvironmentGpu). A pass reads what it is given.
+/// Environment lighting (EnvironmentGpu). A pass reads the handles that are set.
 struct EnvironmentHandles {
     graph::BufferHandle constants; ///< shared::EnvironmentConstants
     std::optional<graph::TextureHandle> map, filtered;
@@ -67,7 +67,7 @@ struct EnvironmentHandles {
     void bind(const graph::PassContext& context) const;
 };
 
-/// The tables of lobes (LobesGpu). A pass reads what it is given.
+/// The tables of lobes (LobesGpu). A pass reads the handles that are set.
 struct LobeHandles {
     LobesGpu* lobes = nullptr; ///< null if the frame is only planned
     std::optional<graph::TextureHandle> table, shapes;
@@ -75,30 +75,30 @@ struct LobeHandles {
     void bind(const graph::PassContext& context) const;
 };
 
-/// The scene's own buffers, which all views of a frame share.
+/// The scene's buffers, shared by all views of a frame.
 struct SceneHandles {
-    std::vector<graph::BufferHandle> vertices; ///< a stream each
+    std::vector<graph::BufferHandle> vertices; ///< one per stream
     graph::BufferHandle indices;
     graph::BufferHandle materials;                    ///< shared::MaterialConstants of each
-    std::optional<graph::BufferHandle> materialTable; ///< where surfaces hold their material's number
-    std::optional<graph::BufferHandle> subsurfaces;   ///< where lighting reads them: shared::SubsurfaceConstants
-    std::optional<graph::BufferHandle> facetNormals;  ///< where there are shadows: a stream too, of lit surfaces
-    std::optional<graph::BufferHandle> casters;       ///< where shadows are traced: shaders/shared/caster_tree.h
-    EnvironmentHandles environment;                   ///< without constants; what some view has use for
-    LobeHandles lobes;                                ///< what some view has use for
-    std::optional<graph::BufferHandle> lightPictures; ///< where lights have any: shaders/shared/light_pictures.h
+    std::optional<graph::BufferHandle> materialTable; ///< if surfaces store material numbers
+    std::optional<graph::BufferHandle> subsurfaces;   ///< if lighting reads them: shared::SubsurfaceConstants
+    std::optional<graph::BufferHandle> facetNormals;  ///< with shadows: another vertex stream, for lit surfaces
+    std::optional<graph::BufferHandle> casters;       ///< with traced shadows: shaders/shared/caster_tree.h
+    EnvironmentHandles environment;                   ///< without constants; parts that some view uses
+    LobeHandles lobes;                                ///< those that some view uses
+    std::optional<graph::BufferHandle> lightPictures; ///< with textured lights: shaders/shared/light_pictures.h
 };
 
 /// The scene as a view draws it.
 struct SurfaceHandles {
     const DrawnView* drawn = nullptr;
     SceneHandles scene;
-    ViewHandles view;                                     ///< empty where a pass draws with cameras of its own
+    ViewHandles view;                                     ///< empty if a pass draws with its own cameras
     graph::BufferHandle rows;                             ///< DrawRows of each draw of the view
     graph::BufferHandle commands;                         ///< gpu::DrawIndexedCommand of the same
-    std::optional<graph::TextureHandle> spreadLight = {}; ///< where light has spread over some: their atlas
-    std::optional<graph::BufferHandle> hook = {};         ///< where the scene has one: shared::HookConstants
-    std::vector<std::size_t> depthPrograms = {}; ///< of readDepth(), by number: bare, then where there is one, masked
+    std::optional<graph::TextureHandle> spreadLight = {}; ///< with diffusing objects: the atlas of their light
+    std::optional<graph::BufferHandle> hook = {};         ///< with a scene hook: shared::HookConstants
+    std::vector<std::size_t> depthPrograms = {};          ///< of readDepth(): opaque, then masked if there is one
 
     enum class Kind { Opaque, Transparent };
 
@@ -106,14 +106,14 @@ struct SurfaceHandles {
     /// Draws the surfaces of a kind with the program in use, as SceneGpu::draw().
     void draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state,
               std::optional<gpu::Blend> transmitting = {}) const;
-    /// The same of opaque surfaces as gpu::drawInParts(), for a pass whose geometry takes long.
+    /// Draws the opaque surfaces in parts (gpu::drawInParts()), for a pass with expensive geometry.
     void drawOpaqueInParts(const graph::PassContext& context, const gpu::PipelineState& state) const;
 
-    /// The same as draw() for a pass that wants depth alone and has the programs of depthPrograms(). Materials are read
-    /// only where some have holes.
+    /// read() and draw() for a depth-only pass with the programs of depthPrograms(). Materials are read only if some
+    /// are alpha-masked.
     SurfaceHandles readDepth(graph::PassBuilder& pass, const std::vector<shader::ProgramDesc>& programs) const;
     void drawDepth(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state) const;
-    /// The same of any batches, for a pass that binds a camera itself.
+    /// The same for any batches, for a pass that binds its own camera.
     void drawDepth(const graph::PassContext& context, std::span<const Batch> batches,
                    const gpu::PipelineState& state) const;
 
@@ -125,7 +125,7 @@ private:
     }
 };
 
-/// Light lists (shaders/shared/light_lists.h), where a pass finds the lights of a pixel in them.
+/// Light lists (shaders/shared/light_lists.h) in which a pass looks up the lights of a pixel.
 struct LightListHandles {
     graph::BufferHandle tiles;   ///< shared::LightTile each
     graph::BufferHandle cells;   ///< uvec2 each
@@ -134,11 +134,11 @@ struct LightListHandles {
     LightListHandles read(graph::PassBuilder& pass) const;
     void bind(const graph::PassContext& context) const;
 };
-/// What a plan calls the buffers whose bytes are counted while the frame runs.
+/// Names, in a plan, of the buffers whose sizes are measured while the frame runs.
 inline constexpr const char* kLightCellsName = "light_cells";
 inline constexpr const char* kLightEntriesName = "light_entries";
 
-/// What hides lights.
+/// The shadow casters.
 struct CasterTreeHandles {
     graph::BufferHandle constants; ///< shared::CasterTreeConstants
     graph::BufferHandle casters;   ///< texels (shaders/shared/caster_tree.h)
@@ -147,19 +147,19 @@ struct CasterTreeHandles {
     void bind(const graph::PassContext& context) const;
 };
 
-/// What a pass lights with.
+/// Inputs of a lighting pass.
 struct LightingInputs {
     ViewHandles view;
     graph::BufferHandle constants;                         ///< shared::LightingConstants
     graph::BufferHandle lights;                            ///< texels (shaders/shared/light.h)
-    std::optional<graph::BufferHandle> materialTable;      ///< where surfaces hold their material's number
-    std::optional<graph::BufferHandle> subsurfaces;        ///< where surfaces have any: shared::SubsurfaceConstants
-    std::optional<LightListHandles> lists;                 ///< where FrameSpec::culling asks for them
-    std::optional<CasterTreeHandles> casterTree;           ///< where the view has shadows that are traced
-    std::optional<graph::TextureHandle> shadowAtlas;       ///< where it has shadow maps
-    std::optional<EnvironmentHandles> environment;         ///< where it lights surfaces
+    std::optional<graph::BufferHandle> materialTable;      ///< if surfaces store material numbers
+    std::optional<graph::BufferHandle> subsurfaces;        ///< with subsurface scattering: shared::SubsurfaceConstants
+    std::optional<LightListHandles> lists;                 ///< if FrameSpec::culling requires them
+    std::optional<CasterTreeHandles> casterTree;           ///< with traced shadows
+    std::optional<graph::TextureHandle> shadowAtlas;       ///< with shadow maps
+    std::optional<EnvironmentHandles> environment;         ///< if it lights surfaces
     LobeHandles lobes;                                     ///< those that lights and the environment need
-    std::optional<graph::BufferHandle> lightPictures = {}; ///< where lights in view have any
+    std::optional<graph::BufferHandle> lightPictures = {}; ///< with textured lights in view
 
     LightingInputs read(graph::PassBuilder& pass) const;
     void bind(const graph::PassContext& context) const;
@@ -168,7 +168,7 @@ struct LightingInputs {
 /// The G-buffer, and the depths of its surfaces.
 struct GBufferHandles {
     std::vector<graph::TextureHandle> textures; ///< by attachment, as FrameSpec::gbufferTextures()
-    graph::TextureHandle depth;                 ///< D32F, reverse-Z; 0 where nothing is
+    graph::TextureHandle depth;                 ///< D32F, reverse-Z; 0 where nothing is drawn
 
     /// `depthAccess`: Sampled, or DepthTest, which may be sampled too.
     GBufferHandles read(graph::PassBuilder& pass, const FrameSpec& spec,
@@ -176,43 +176,43 @@ struct GBufferHandles {
     void bind(const graph::PassContext& context) const;
 };
 
-/// What bodies of glass see: the finished picture of opaque surfaces, of one sample a pixel, RGBA32F: rgb of what
-/// covers the pixel, times a, the share that it covers.
+/// The image behind refractive objects: finished opaque surfaces at one sample per pixel, RGBA32F: rgb radiance
+/// premultiplied by a, the coverage.
 struct BehindHandles {
     graph::TextureHandle picture;
-    std::optional<graph::TextureHandle> levels; ///< where some bodies blur it: FrameSpec::behindLevels()
-    /// Of its surfaces at the centres of pixels, R32F; none with one sample a pixel, whose depth buffer is that.
+    std::optional<graph::TextureHandle> levels; ///< if some objects blur it: FrameSpec::behindLevels()
+    /// Depth of its surfaces at pixel centres, R32F; none at one sample per pixel, where the depth buffer serves.
     std::optional<graph::TextureHandle> depth;
 
     BehindHandles read(graph::PassBuilder& pass, const FrameSpec& spec) const;
     void bind(const graph::PassContext& context) const;
 };
 
-/// What light lists are built from.
+/// Depths from which light lists are built.
 struct LitDepths {
-    /// Of opaque surfaces: the depth buffer, D32F; with several samples per pixel the range in which each is lit,
-    /// RG32F: x nearest depth, y farthest depth negated, x 0 where there is no surface.
+    /// Opaque surfaces: the depth buffer, D32F; with several samples per pixel, the depth range in which each pixel is
+    /// shaded, RG32F: x nearest depth, y farthest depth negated, x 0 where there is no surface.
     graph::TextureHandle opaque;
-    std::optional<graph::TextureHandle> transparent; ///< RG32F, as that range
+    std::optional<graph::TextureHandle> transparent; ///< RG32F, the same range
 
     LitDepths read(graph::PassBuilder& pass, const FrameSpec& spec,
                    graph::Access access = graph::Access::Sampled) const;
-    /// As textures.
+    /// Binds them as textures.
     void bind(const graph::PassContext& context) const;
 };
 
-/// Makes the scene's own buffers known to a graph. `scene` is null if the frame is only planned; features are those of
-/// the scene, so any of the frame's views has them. Where some view traces shadows, `scene` has its casters.
+/// Imports the scene's buffers into a graph. `scene` is null if the frame is only planned. Features are the scene's, so
+/// any of the frame's views has them. `scene` must have its casters if some view traces shadows.
 SceneHandles importScene(graph::Graph& graph, std::span<const FrameSpec* const> specs, const SceneGpu* scene);
-/// The same of what views of these specs use of the environment; null where the frame is only planned.
+/// Imports the parts of the environment that views of these specs use; null if the frame is only planned.
 EnvironmentHandles importEnvironment(graph::Graph& graph, std::span<const FrameSpec* const> specs,
                                      EnvironmentGpu* environment);
-/// The same of the tables of lobes.
+/// Imports the lobe tables in the same way.
 LobeHandles importLobes(graph::Graph& graph, std::span<const FrameSpec* const> specs, LobesGpu* lobes);
-/// The same of the pictures of lights; `drawn` is any of the views, or null.
+/// Imports the textures of lights in the same way; `drawn` is any of the views, or null.
 std::optional<graph::BufferHandle> importLightPictures(graph::Graph& graph, std::span<const FrameSpec* const> specs,
                                                        const DrawnView* drawn);
-/// Binds them where shaders read them.
+/// Binds them to the texture unit that shaders read.
 void bindLightPictures(const graph::PassContext& context, graph::BufferHandle pictures);
 
 } // namespace tessera::frame

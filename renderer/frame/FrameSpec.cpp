@@ -28,7 +28,7 @@ std::size_t vertexCount(const scenes::Scene& scene) {
     return count;
 }
 
-/// Bytes a vertex that are not there for want of a feature.
+/// Bytes per vertex saved by the absence of a feature.
 std::size_t bytesWithout(Feature feature, const FeatureSet& features) {
     switch (feature) {
     case Feature::TangentSpaceNormals:
@@ -46,17 +46,17 @@ bool isSoft(const scenes::Light& light, const FrameSettings& settings) {
     return scenes::hasSize(light) && infoOf(settings.shadowFilter).heedsSizes;
 }
 
-/// Rays, or places on its disk, that a light's shadow is found by.
+/// Shadow rays, or samples of the light's disk, per pixel.
 std::size_t shadowSamples(const scenes::Light& light, const FrameSettings& settings) {
     return isSoft(light, settings) ? std::size_t(settings.shadowSamples) : 1;
 }
 
-/// Rays of a light with shadows that find how far it goes inside what lets it through.
+/// Rays per shadowed light that measure the path length inside transmitting objects.
 std::size_t passingRays(const FrameSpec& spec) {
     return spec.features[Feature::SubsurfacePassage] ? 1 : 0;
 }
 
-/// Those of the loops that find a light's shadow, at most: all its cascades may answer pixels that run together.
+/// Most loop iterations for a light's shadow: pixels that run together may use all its cascades.
 std::size_t shadowIterations(const FrameSpec& spec, const scenes::Light& light) {
     const FrameSettings& settings = spec.settings;
     const std::size_t samples = shadowSamples(light, settings);
@@ -90,12 +90,12 @@ bool anyOpaque(const scenes::Scene& scene) {
                                [](const scenes::Material* material) { return !scenes::isTransparent(*material); });
 }
 
-/// Whether there is anything that glass may show by rays: surfaces, or those of area lights.
+/// Whether refracted rays may hit surfaces, including those of area lights.
 bool showsAnyOpaque(const scenes::Scene& scene, const FrameSpec& spec) {
     return spec.seenLights > 0 || anyOpaque(scene);
 }
 
-/// Whether any body may have back faces by which rays leave it.
+/// Whether rays may leave any volume through back faces.
 bool mayLeaveByBackFaces(const scenes::Scene& scene, const FrameSettings& settings) {
     if (!settings.prune || infoOf(settings.refraction).farSide == RefractionInfo::FarSide::BackFaces) return true;
     if (settings.hasClosedBodies) return *settings.hasClosedBodies;
@@ -103,7 +103,7 @@ bool mayLeaveByBackFaces(const scenes::Scene& scene, const FrameSettings& settin
     return scenes::hasClosedBodies(scene, meshes);
 }
 
-/// Decides what glass shows of what is behind it, once the features of surfaces and the lights that are seen are known.
+/// Decides what refraction shows. Requires the features of surfaces and the number of visible light surfaces.
 void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
     const FrameSettings& settings = spec.settings;
     const auto mayBe = [&](bool (*isOne)(const scenes::Material&)) {
@@ -122,8 +122,8 @@ void decideRefraction(const scenes::Scene& scene, FrameSpec& spec) {
         maySheetScatter && refraction.showsScene && (spec.showsBehindGlass || spec.features[Feature::Environment]);
 }
 
-/// Decides whether light may pass through rough surfaces, which the table of lobes says how much of they reflect. A
-/// hook may make any surface rough.
+/// Decides whether rough surfaces may transmit light, which requires the lobe table for their reflectance. A hook may
+/// make any surface rough.
 void decidePassing(const scenes::Scene& scene, FrameSpec& spec) {
     const auto mayPass = [](const scenes::Material* material) { return mayPassByLobe(*material); };
     spec.passesByLobes =
@@ -131,7 +131,7 @@ void decidePassing(const scenes::Scene& scene, FrameSpec& spec) {
         (!spec.settings.prune || spec.hook.has_value() || std::ranges::any_of(scenes::materialsInUse(scene), mayPass));
 }
 
-/// Why glass shows no surfaces along its rays, where it shows none.
+/// Why refracted rays show no surfaces.
 std::string whyNothingBehindGlass(const scenes::Scene& scene, const FrameSpec& spec) {
     if (!mayLookBehindGlass(scene)) return "no material that transmits has a thickness or is rough";
     if (!infoOf(spec.settings.refraction).showsScene) return "bodies are to show the environment alone";
@@ -140,7 +140,7 @@ std::string whyNothingBehindGlass(const scenes::Scene& scene, const FrameSpec& s
     return "a shader of this driver samples too few textures";
 }
 
-/// Why rays leave no body by its back faces.
+/// Why rays leave no volume through back faces.
 std::string whyNoBackFaces(const FrameSpec& spec) {
     if (!infoOf(spec.settings.refraction).seesBackFaces()) return "rays are not to leave bodies there";
     if (spec.settings.view != DebugView::Final) return "the view is not the lit picture";
@@ -206,12 +206,12 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.features.has.reset(std::size_t(Feature::ShadowLift));
     if (settings.prune && !spec.features[Feature::Shadows])
         spec.features.has.reset(std::size_t(Feature::SubsurfacePassage));
-    // Neither maps nor samples are there where nothing is lit by them.
+    // Environment maps and samples exist only if they light surfaces.
     if (isLitByEnvironment(scene, settings) && showsLitPicture(settings.view) && spec.features.litModels())
         spec.features.add(Feature::Environment);
     else
         spec.features.has.reset(std::size_t(Feature::Environment));
-    // Occlusion dims that light alone, and mirrors show its map: each needs a texture unit more than every driver has.
+    // Only environment lighting uses occlusion and mirrors; each needs a texture unit that not every driver has.
     if (!spec.features[Feature::Environment]) {
         spec.features.has.reset(std::size_t(featureOf(scenes::TextureSlot::Occlusion)));
         spec.features.has.reset(std::size_t(Feature::Mirrors));
@@ -222,13 +222,13 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
         spec.environment = environmentShape(scene.environment->map);
     if (lights.pictures.empty()) spec.features.has.reset(std::size_t(Feature::LightPictures));
     spec.lightPictureBytes = lightPictureBytes(lights.pictures);
-    // It says how shadows are found, so it is not kept where it is not asked for.
+    // Without pruning all features are set, but this one selects the shadow algorithm.
     if (!infoOf(settings.shadowFilter).usesMaps) spec.features.has.reset(std::size_t(Feature::ShadowMaps));
     decideRefraction(scene, spec);
     decidePassing(scene, spec);
     if (sampledTextures(spec) > std::size_t(settings.texturesAStage))
         leaveOutTextures(spec, settings.prune ? surfaces : materialFeatures(scene, settings.subsurface));
-    // A channel that is looked at is stored, and not as a number or beside one.
+    // A displayed channel is stored itself, neither replaced by a material number nor in another channel.
     spec.features.add(Feature::VaryingMaterials, storedComponents(settings.view).has_value());
     spec.settings.layout = refined(settings.layout, scene, settings.subsurface);
     spec.channels = neededChannels(spec.features, spec.settings.layout, needsNormalTexel(settings.view));
@@ -243,7 +243,7 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
     spec.areaLights = std::size_t(std::ranges::count_if(
         lights.sceneIndex, [&](int light) { return scenes::infoOf(scene.lights[std::size_t(light)].type).isArea; }));
     if (spec.usesAreaSamples()) spec.iterations += spec.areaLights * std::size_t(1 + settings.area.samples);
-    // Each colour's ray inside and behind a body, which goes behind something in every other step at most.
+    // Rays of three colours inside and behind a volume. At most every other step passes behind a surface and bisects.
     if (spec.showsBehindGlass || spec.drawsFarSides)
         spec.iterations += 6 * REFRACTION_STEPS * (1 + REFRACTION_HALVINGS / 2);
     return spec;
@@ -254,7 +254,7 @@ FrameSpec makeSpec(const scenes::Scene& scene, const PackedLights& lights, const
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings,
                         std::size_t seenLights) {
     FeatureSet surfaces = surfaceFeatures(scene, settings.prune, settings.subsurface);
-    // Not kept where nothing asks for it, since there is no atlas then.
+    // Without objects to diffuse there is no atlas, so the feature is removed even without pruning.
     if (!showsLitPicture(settings.view) || !scenes::anySpreads(scene, settings.subsurface))
         surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
     return makeSpec(scene, lights, settings, surfaces, seenLights);
@@ -265,7 +265,7 @@ FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& o
     FeatureSet surfaces = settings.prune ? enteringFeatures(scene, object.material, object.mesh) : allFeatures();
     surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
     FrameSpec spec = makeSpec(scene, lights, settings, surfaces, 0);
-    spec.features.add(Feature::OrthographicCamera); // nothing of it is asked; the constants are those of one
+    spec.features.add(Feature::OrthographicCamera); // unused; the view constants are orthographic
     spec.channels.clear();
     spec.showsEnvironment = false;
     spec.showsBehindGlass = spec.blursBehindGlass = spec.scattersBySheets = false;
@@ -274,8 +274,8 @@ FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& o
         return lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
                            texelMetresOf(object.sideMetres, spec.spreadTexels(), border), settings.diffusion.half);
     };
-    // How wide the border is hangs on the size of a texel, and that on the border: texels without one are the smallest,
-    // and light that spreads over them reaches over the most.
+    // Border and texel size depend on each other. Without a border texels are smallest, and the diffusion radius in
+    // texels is largest.
     const LightSpread widest = spreadOver(0);
     spec.gutterTexels = frame::gutterTexels(widest.levels, widest.texelMetres);
     spec.spread = spreadOver(borderTexels(spec.gutterTexels, spec.spreadTexels()));
@@ -403,7 +403,7 @@ std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const Fram
                                           bool gbuffer) {
     std::vector<graph::Plan::LeftOut> out;
     const std::size_t pixels = std::size_t(spec.settings.sizePixels.x) * std::size_t(spec.settings.sizePixels.y);
-    // What pixels would hold if they did not hold the number of their material.
+    // Channels that pixels would store without material numbers.
     FeatureSet varying = spec.features;
     varying.add(Feature::VaryingMaterials);
     const std::vector<Channel> stored =

@@ -23,43 +23,43 @@ struct FrameSpec {
     FeatureSet features;
     std::vector<Channel> channels; ///< of the G-buffer
     culling::Choice culling;
-    LightingStage lightOn = LightingStage::Fragment; ///< where the technique has a lighting pass
-    std::size_t lights = 0;                          ///< that the frame's pixels may visit
-    std::size_t shadowedLights = 0;                  ///< those among them that casters may hide
-    std::size_t areaLights = 0;                      ///< those among them that have a surface
-    std::size_t shadowSamples = 0;                   ///< rays, or places of their disks, for all of those
-    std::size_t iterations = 0;                      ///< of loops, to light a pixel that all lights reach
-    glm::ivec2 shadowAtlasTexels{0};                 ///< where there are shadow maps
+    LightingStage lightOn = LightingStage::Fragment; ///< for techniques with a lighting pass
+    std::size_t lights = 0;                          ///< lights that pixels may visit
+    std::size_t shadowedLights = 0;                  ///< those of them that cast shadows
+    std::size_t areaLights = 0;                      ///< those of them with a surface
+    std::size_t shadowSamples = 0;                   ///< shadow rays or disk samples of all shadowed lights
+    std::size_t iterations = 0;                      ///< of loops, to light a pixel in range of all lights
+    glm::ivec2 shadowAtlasTexels{0};                 ///< with shadow maps
     std::size_t shadowFaces = 0;                     ///< in the atlas
-    bool lightsEverywhere = false;                   ///< some lights reach everywhere, while others do not
-    int samples = 1;                                 ///< that the pixels of render targets have
+    bool lightsEverywhere = false;                   ///< some lights have unlimited range, others do not
+    int samples = 1;                                 ///< per pixel of render targets
     glm::vec4 background{0.0f};                      ///< radiance where nothing is drawn; a is 0, the coverage
-    std::optional<EnvironmentShape> environment;     ///< where it lights surfaces, or is seen
-    bool showsEnvironment = false;                   ///< behind the scene
-    std::optional<HookShape> hook;                   ///< of the scene, where it changes surfaces
-    std::size_t seenLights = 0;                      ///< area lights whose surface the picture may show
-    bool showsLightPictures = false;                 ///< some of them have one
-    std::size_t lightPictureBytes = 0;               ///< of all pictures of the scene's lights
-    bool showsBehindGlass = false;                   ///< bodies and rough sheets show opaque surfaces along their rays
-    bool blursBehindGlass = false;                   ///< and some of them spread those rays
-    bool scattersBySheets = false;                   ///< sheets spread light from opaque surfaces or the environment
-    bool drawsFarSides = false;                      ///< of bodies, where rays leave them
-    bool passesByLobes = false;                      ///< some surface that transmits may be rough: LobeTable.h
+    std::optional<EnvironmentShape> environment;     ///< if it lights surfaces or is displayed
+    bool showsEnvironment = false;                   ///< as the background
+    std::optional<HookShape> hook;                   ///< the scene's hook, if it changes surfaces
+    std::size_t seenLights = 0;                      ///< area lights whose surface may be visible
+    bool showsLightPictures = false;                 ///< some of them are textured
+    std::size_t lightPictureBytes = 0;               ///< of the textures of all the scene's lights
+    bool showsBehindGlass = false; ///< refracted rays of volumes and rough sheets show opaque surfaces
+    bool blursBehindGlass = false; ///< some of those rays are scattered
+    bool scattersBySheets = false; ///< thin sheets scatter light from opaque surfaces or the environment
+    bool drawsFarSides = false;    ///< draws back faces of volumes, where rays leave them
+    bool passesByLobes = false;    ///< some transmissive surface may be rough: LobeTable.h
 
-    /// Slots that materials have textures in and shaders have no room for, the last first.
+    /// Texture slots in use that are dropped for lack of texture units, lowest priority first.
     std::vector<scenes::TextureSlot> withoutTextures;
-    bool hasNoRoomBehindGlass = false; ///< glass shows no surfaces for lack of textures, and would else
+    bool hasNoRoomBehindGlass = false; ///< refraction omits surfaces only for lack of texture units
 
-    /// By cell of the view's SpreadLightAtlas, what the texels of an object that light spreads over are lit with.
+    /// By cell of the view's SpreadLightAtlas: the specs that render irradiance into the texels of diffusing objects.
     std::vector<FrameSpec> spreadingViews;
-    std::optional<LightSpread> spread; ///< of such an object's own spec
+    std::optional<LightSpread> spread; ///< set in the spec of a diffusing object
     int gutterTexels = 0;              ///< of its UV atlas (Diffusion.h)
 
     bool isInAtlas() const { return spread.has_value(); }
-    /// Texels along the side of an object's UV atlas that light is spread in.
+    /// Side of an object's UV atlas at the diffusion resolution, in texels.
     int spreadTexels() const { return std::max(1, settings.diffusion.sideTexels / (settings.diffusion.half ? 2 : 1)); }
     SpreadLightAtlas spreadLightAtlas() const { return frame::spreadLightAtlas(spreadingViews.size(), spreadTexels()); }
-    /// Bytes of the SpreadLightAtlas, and of each object's light that enters and the part of it that leaves at once.
+    /// Bytes of the SpreadLightAtlas and, per object, of its irradiance and the undiffused part of it.
     double spreadLightBytes() const {
         const glm::dvec2 texels(spreadLightAtlas().texels());
         const double side = double(spreadTexels());
@@ -67,34 +67,34 @@ struct FrameSpec {
     }
 
     bool usesEnvironmentMap() const;     ///< at full resolution
-    bool lightsByEnvironmentMap() const; ///< surfaces, with samples or mirrors
+    bool lightsByEnvironmentMap() const; ///< lights surfaces, by samples or mirrors
     bool usesEnvironmentSamples() const;
     bool usesFilteredEnvironment() const;
     bool usesLobeTable() const;
-    bool lightsByLobeTable() const; ///< surfaces, by area lights or an environment
+    bool lightsByLobeTable() const; ///< lights surfaces, by area lights or an environment
     bool usesLobeShapes() const;
     bool usesAreaSamples() const;
     bool compensatesLobes() const;
     bool usesLightPictures() const { return features[Feature::LightPictures] || showsLightPictures; }
 
-    /// Whether shadows follow rays through the casters.
+    /// Whether shadows are ray traced.
     bool tracesShadows() const { return features[Feature::Shadows] && !features[Feature::ShadowMaps]; }
-    /// Whether shadows and samples of area lights may take more iterations than Mesa lets loops make, so that pixels
-    /// are NaN (LightRounds.h).
+    /// Warning: loops over shadows and samples of area lights may exceed Mesa's iteration limit, which turns pixels
+    /// into NaN (LightRounds.h).
     bool mayCutLoops() const;
 
-    /// Of the G-buffer, by attachment: its channels, and behind them the marks (markTable()) where there is room.
+    /// G-buffer textures by attachment: its channels, then the flag bits (markTable()) if an attachment is left.
     std::vector<GBufferTexture> gbufferTextures() const;
-    /// What shaders that write or read the G-buffer are compiled with.
+    /// Defines of shaders that write or read the G-buffer.
     Defines gbufferDefines() const;
     int gbufferBytesPerPixel() const; ///< without depth
-    /// A texture of the picture's size.
+    /// A texture of the image's size.
     graph::TextureDesc texture(graph::Format format) const {
         return {format, settings.sizePixels.x, settings.sizePixels.y, 1};
     }
-    /// The coarser levels of what bodies show, one above the other (shaders/shared/refraction.h).
+    /// The coarser levels of the image behind glass, stacked in one texture (shaders/shared/refraction.h).
     graph::TextureDesc behindLevels() const;
-    /// What geometry is drawn into: the same with the frame's samples.
+    /// A render target of geometry: texture() with the frame's sample count.
     graph::TextureDesc renderTarget(graph::Format format) const {
         return {format, settings.sizePixels.x, settings.sizePixels.y, samples};
     }
@@ -102,30 +102,30 @@ struct FrameSpec {
 FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, const FrameSettings& settings,
                         std::size_t seenLights = 0);
 
-/// That of an object that light spreads over, as the view of `settings` needs it; the lights are those that reach it.
+/// The spec that renders the irradiance of a diffusing object for the view of `settings`, with the lights in range.
 FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& object, const PackedLights& lights,
                             const FrameSettings& settings);
 
-/// Why there are no shadows, where there are none.
+/// Why there are no shadows.
 std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights, const scenes::ShadowRequest& request);
 
-/// How a pass that shades opaque or transparent surfaces finds its lights.
+/// Defines of the light loop in a pass that shades opaque or transparent surfaces.
 void addCursorDefines(const FrameSpec& spec, bool transparent, Defines& defines);
 
-/// Tiles that light lists of the frame have, those of the transparent layer included.
+/// Number of tiles of the frame's light lists, including those of the transparent layer.
 std::size_t lightTileCount(const FrameSpec& spec);
 
-/// A program of the frame; `extra` defines stand after the frame's.
+/// A program of the frame; `extra` defines follow the frame's.
 shader::ProgramDesc frameProgram(const FrameSpec& spec, std::string name, std::string vertex, std::string fragment,
                                  const Defines& extra);
 
-/// Those of a pass that draws depth alone. The first samples nothing and takes no material; a second one, where `masks`
-/// and the frame has them, is for materials with holes.
+/// Programs of a depth-only pass. The first samples no textures and reads no materials. A second one, if `masks` and
+/// the frame has alpha masks, is for masked materials.
 std::vector<shader::ProgramDesc> depthPrograms(const FrameSpec& spec, const std::string& name,
                                                const std::string& fragment, bool masks, Defines extra);
 
-/// What the spec leaves out and why, for a plan; bytes are those of G-buffer channels (where the technique has a
-/// G-buffer), vertex streams and lights saved.
+/// What the spec leaves out and why, for a plan. Bytes are those of saved G-buffer channels (if the technique has a
+/// G-buffer), vertex streams and lights.
 std::vector<graph::Plan::LeftOut> leftOut(const scenes::Scene& scene, const FrameSpec& spec, const PackedLights& lights,
                                           bool gbuffer);
 

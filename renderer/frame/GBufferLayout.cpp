@@ -16,7 +16,7 @@ namespace {
 
 using graph::Format;
 
-/// Attachments that OpenGL guarantees to draw into at once.
+/// Colour attachments that OpenGL guarantees.
 constexpr std::size_t kMostAttachments = 8;
 
 const ChannelInfo& infoOf(Channel channel) {
@@ -26,7 +26,7 @@ const MarkInfo& infoOf(Mark mark) {
     return markTable()[static_cast<std::size_t>(mark)];
 }
 
-/// The first bit of each mark, one after the other but within a word, and behind them the end of the last.
+/// The first bit of each flag, in order, so that no flag crosses a word; then the end of the last one.
 std::vector<int> firstBits(std::span<const Mark> marks) {
     std::vector<int> bits{0};
     for (const Mark mark : marks) {
@@ -38,7 +38,7 @@ std::vector<int> firstBits(std::span<const Mark> marks) {
     return bits;
 }
 
-/// A channel's name in those of its functions: "NormalTexel".
+/// A channel's name as in its functions' names: "NormalTexel".
 std::string capitalised(std::string_view name) {
     std::string words;
     bool begins = true;
@@ -57,11 +57,11 @@ bool contain(std::span<const Channel> channels, Channel channel) {
     return std::find(channels.begin(), channels.end(), channel) != channels.end();
 }
 
-/// Of the normal where pixels hold the number of their material: the code that all techniques light, and the number.
+/// Fields of the normal with material numbers: the normal code that all techniques light, and the number.
 constexpr FieldWidths kNormalAndNumber{NORMAL_SHARE_BITS, NORMAL_SHARE_BITS, NORMAL_AXIS_BITS, 11};
 static_assert(MATERIAL_TABLE_MOST <= 1 << kNormalAndNumber[3]);
 
-/// The fields of a channel in words; all 0 if it has a texture of its own.
+/// The fields of a channel in words; all 0 if it has its own texture.
 FieldWidths fieldsOf(const GBufferLayout& layout, std::span<const Channel> channels, Channel channel) {
     if (layout[channel] != Encoding::Exact) return layout.widths(channel);
     return channel == Channel::Normal && holdMaterialNumber(layout, channels) ? kNormalAndNumber : FieldWidths{};
@@ -71,7 +71,7 @@ int bitsOf(const FieldWidths& fields) {
     return std::accumulate(fields.begin(), fields.end(), 0);
 }
 
-/// Where pixels hold a channel: in a texture of its own, or from a bit of the words on.
+/// Where a channel is stored: in its own texture, or at a bit of the words.
 struct Place {
     Channel channel;
     FieldWidths fields; ///< in words
@@ -80,7 +80,7 @@ struct Place {
 };
 struct Places {
     std::vector<Place> channels;
-    int textures = 0; ///< of channels; those of words follow
+    int textures = 0; ///< of exact channels; those of words follow
     int words = 0;
 
     const Place* find(Channel channel) const {
@@ -108,7 +108,7 @@ bool canHoldMaterialNumber(const GBufferLayout& layout) {
            });
 }
 
-/// Where every pixel holds all of its surface.
+/// The channels without material numbers: pixels store their whole surface.
 std::vector<Channel> channelsOfSurfaces(const FeatureSet& features, const GBufferLayout& layout, bool normalTexel) {
     const bool alphaAndMetallicOnly =
         features.soleModel &&

@@ -130,7 +130,7 @@ constexpr MarkInfo kMarks[] = {
      [](const FeatureSet& f) { return f[scenes::TextureSlot::Occlusion] && f[Feature::Environment]; }},
 };
 static_assert(std::size(kMarks) == kMarkCount);
-// fp32 holds the whole numbers of so many bits.
+// fp32 represents integers of up to 24 bits exactly.
 static_assert(std::ranges::all_of(kMarks, [](const MarkInfo& row) { return row.bits > 0 && row.bits <= 24; }));
 
 /// Bits of the words up to the end of the normal.
@@ -142,10 +142,10 @@ constexpr int bitsUpToNormal(FieldWidths ChannelInfo::*widths) {
     }
     return bits;
 }
-// Light culling reads normals back from the first texture of words: of one, if there are no more, of two, or of four.
+// Light culling reads normals from the first texture of words, which has one, two or four.
 static_assert(std::max(bitsUpToNormal(&ChannelInfo::packed), bitsUpToNormal(&ChannelInfo::slim)) <= 64);
 
-// One exponent serves three colours of one width; with more bits than 7 it would leave fp32's range.
+// Three colours of equal width share one exponent; with more than 7 bits it would exceed fp32's range.
 static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
     const auto isGood = [](const FieldWidths& widths) {
         return widths[0] <= 7 && widths[1] == widths[2] && widths[1] == widths[3];
@@ -153,7 +153,7 @@ static_assert(std::ranges::all_of(kChannels, [](const ChannelInfo& row) {
     return row.channel != Channel::Emission || (isGood(row.packed) && isGood(row.slim));
 }));
 
-// The field of model and masking holds the models, then each of those that mask once more for each other masking
+// The field of model and masking enumerates the models, then each microfacet model with every other masking
 // (shaders/lib/gbuffer/gbuffer_encodings.glsl).
 constexpr std::size_t kKindCodes = [] {
     std::size_t codes = scenes::kMaterialModelCount;
@@ -171,11 +171,10 @@ constexpr GBufferLayout uniformLayout(Encoding encoding) {
     return layout;
 }
 
-// By Encoding. 99.9 % of the pixels: the coarsest step, relative to the value, is that of k_s, where it reflects 4 %,
-// of which 1/60 or 1/15 in the root is 2/(60 x 0.2) or 2/(15 x 0.2). Bias: every field is right in the mean, so what is
-// left is of second order in the steps of alpha: a highlight's peak goes with 1/alpha^2, of which half the second
-// derivative is 3/alpha^4, and the variance of a dithered value is at most a quarter of the step's square. At alpha
-// 0.01.
+// By Encoding. p999Rel: k_s has the coarsest relative step. At 4 % reflectance (root 0.2), a step of 1/60 or 1/15 in
+// the root is 2/(60 x 0.2) or 2/(15 x 0.2) of the value. bias: every field is right in the mean, so the rest is of
+// second order in the steps of alpha: a highlight's peak is proportional to 1/alpha^2, half its second derivative is
+// 3/alpha^4, and the variance of a dithered value is at most a quarter of the squared step. Values at alpha 0.01.
 constexpr LayoutInfo kLayouts[] = {
     {"exact", "what forward lights, to the last bit", uniformLayout(Encoding::Exact), {0.0, 0.0, 0.0}},
     {"packed",

@@ -9,7 +9,7 @@
 
 namespace tessera::frame {
 
-/// The parts of a hook that programs are compiled for.
+/// The parts of a hook that affect compiled programs.
 struct HookShape {
     std::string file; ///< absolute
     std::uint64_t contentHash = 0;
@@ -18,10 +18,10 @@ struct HookShape {
 };
 HookShape hookShape(const scenes::Hook& hook);
 
-/// What programs that call it are compiled with.
+/// Defines of programs that call the hook.
 shader::Defines hookDefines(const HookShape& hook);
 
-/// What it reads: the time, rounded to fp32, and its parameters.
+/// The hook's uniforms: the time, rounded to fp32, and its parameters.
 shared::HookConstants hookConstants(const scenes::Hook& hook, double timeSeconds);
 
 } // namespace tessera::frame

@@ -15,14 +15,14 @@ namespace tessera::frame {
 namespace {
 
 constexpr double kCutDeviations = 3.0;
-/// Levels have so many texels a deviation of their Gaussian, so that interpolation between texels loses little.
+/// Texels per standard deviation of a level's Gaussian, so that interpolation between texels loses little.
 constexpr double kTexelsADeviation = 2.0;
-/// And so many at least, since a place nearer to the edge than their centres is taken for that of the last one.
+/// Least texels per side: positions beyond the outermost texel centres are clamped to them.
 constexpr int kLeastTexels = 16;
-/// Shaders count texels in floats.
+/// Shaders compute texel indices in floats.
 constexpr std::size_t kMostPictureTexels = std::size_t(1) << 24;
 
-/// Numbers by column and row; rgb times the share of the texel that lies within the outline, and that share.
+/// Texels weighted by coverage: rgb times the fraction of the texel within the outline, and that fraction.
 struct Masked {
     int width = 0, height = 0;
     std::vector<glm::dvec4> texels;
@@ -31,7 +31,7 @@ struct Masked {
 
 static_assert(scenes::kFlatTypeCount == 3, "a new shape needs a case in isWithinOutline()");
 
-/// A place of the picture, x and y within -1..1, y upwards; corners in the same measure.
+/// `place` is a position in the image, x and y in -1..1, y upwards; corners use the same units.
 bool isWithinOutline(const ShownPicture& shown, const std::vector<glm::dvec2>& corners, const glm::dvec2& place) {
     if (shown.type == scenes::LightType::Rectangle) return true;
     if (shown.type == scenes::LightType::Disk) return glm::dot(place, place) <= 1.0;
@@ -52,11 +52,11 @@ std::vector<glm::dvec2> cornersInPicture(const ShownPicture& shown) {
     return corners;
 }
 
-/// Of the places within the outline, in its measure.
+/// Variances of the positions within the outline, in its units.
 glm::dvec2 variancesOf(const ShownPicture& shown) {
     if (shown.type == scenes::LightType::Rectangle) return glm::dvec2(1.0 / 3.0);
     if (shown.type == scenes::LightType::Disk) return glm::dvec2(0.25);
-    // Of triangles from the origin, those that turn back taken away.
+    // Sums over signed triangles from the origin.
     const std::vector<glm::dvec2> corners = cornersInPicture(shown);
     double all = 0.0;
     glm::dvec2 sum(0.0), squares(0.0);
@@ -76,7 +76,7 @@ Masked maskedTexels(const ShownPicture& shown) {
     Masked masked{map.width, map.height, {}};
     masked.texels.reserve(std::size_t(map.width) * std::size_t(map.height));
     double all = 0.0;
-    constexpr int kSteps = 4; // places a side of a texel
+    constexpr int kSteps = 4; // samples per side of a texel
     for (int y = 0; y < map.height; ++y)
         for (int x = 0; x < map.width; ++x) {
             int within = 0;
@@ -94,7 +94,7 @@ Masked maskedTexels(const ShownPicture& shown) {
             masked.texels.emplace_back(weight * glm::dvec3(texel), weight);
         }
     if (all > 0.0) return masked;
-    // Too thin for any of the places: all of the picture counts.
+    // The outline is too thin for any sample: the whole image counts.
     for (std::size_t at = 0; at < masked.texels.size(); ++at) {
         glm::vec4 texel;
         std::memcpy(&texel, map.texels.data() + at * sizeof texel, sizeof texel);
@@ -103,17 +103,17 @@ Masked maskedTexels(const ShownPicture& shown) {
     return masked;
 }
 
-/// Weights of a row's texels, from `first` on: a Gaussian, cut.
+/// Weights of a row's texels, from `first` on: a truncated Gaussian.
 struct RowWeights {
     int first = 0;
     std::vector<double> weights;
-    double mean = 0.0; ///< place of what they weigh, in parts of the row
+    double mean = 0.0; ///< weighted mean position, as a fraction of the row
 };
 
-/// Of a Gaussian around `middle`, which may lie beside the row. `shares` is what each texel of the row counts.
+/// Weights of a Gaussian around `middle`, which may lie outside the row. `shares` are the weights of the row's texels.
 RowWeights weightsAround(double middle, double deviation, const std::vector<double>& shares) {
     const auto count = double(shares.size());
-    // As far as the nearest place of the row, and on from there.
+    // Truncates relative to the row's texel nearest to `middle`, whose weight is 1.
     const double nearest = std::clamp(middle, 0.5 / count, 1.0 - 0.5 / count) - middle;
     const double reach = std::hypot(nearest, kCutDeviations * deviation);
     const auto texelAt = [&](double place) { return int(std::clamp(std::floor(place * count), 0.0, count - 1.0)); };
@@ -131,7 +131,7 @@ RowWeights weightsAround(double middle, double deviation, const std::vector<doub
     return row;
 }
 
-/// Of the Gaussian that is moved until the mean of what is left of it lies at `mean`, or as near as can be.
+/// Weights of the Gaussian shifted until its truncated mean lies at `mean`, or as near as possible.
 RowWeights weightsOfMean(double mean, double deviation, const std::vector<double>& shares) {
     RowWeights row = weightsAround(mean, deviation, shares);
     constexpr double kNear = 1e-9;
@@ -147,7 +147,7 @@ RowWeights weightsOfMean(double mean, double deviation, const std::vector<double
     return row;
 }
 
-/// By column or row of texels: how much of it lies within the outline.
+/// Coverage by the outline, summed per column and per row.
 struct Shares {
     std::vector<double> ofColumns, ofRows;
 };
@@ -161,7 +161,7 @@ Shares sharesOf(const Masked& masked) {
     return shares;
 }
 
-/// Rows become columns, filtered to `count` texels: twice it is a filter of both.
+/// Filters rows to `count` texels and transposes the result; applied twice, it filters both axes.
 Masked filteredAndTurned(const Masked& from, int count, double deviation, const std::vector<double>& shares) {
     Masked to{from.height, count, std::vector<glm::dvec4>(std::size_t(from.height) * std::size_t(count))};
     for (int i = 0; i < count; ++i) {

@@ -9,23 +9,22 @@ namespace tessera::frame {
 
 namespace {
 
-/// The positive root of c + b r + a r^2, where brightest / (A + B r + C r^2) is the tolerance: a = C, b = B,
-/// c = A - brightest / tolerance. As 2c / (-b - sqrt(b^2 - 4ac)), in which nothing cancels, also right for a = 0.
+/// Solves brightest / (A + B r + C r^2) = tolerance for r, the positive root of c + b r + a r^2 with a = C, b = B and
+/// c = A - brightest / tolerance. The form 2c / (-b - sqrt(b^2 - 4ac)) avoids cancellation and allows a = 0.
 double truncatedReachMetres(double brightest, const glm::dvec3& abc, double tolerance) {
     if (abc.y == 0.0 && abc.z == 0.0) return scenes::kInfinity;
-    // Fused, -c keeps all its digits where A is nearly brightest / tolerance: brightest is exact in double, as the
+    // The fma keeps all digits of -c if A is close to brightest / tolerance: brightest is exact in double, as the
     // product of two floats.
     const double minusC = std::fma(-abc.x, tolerance, brightest) / tolerance;
     if (!(minusC > 0.0)) return 0.0;
     if (std::isinf(minusC)) return scenes::kInfinity;
     const double halfB = 0.5 * abc.y;
-    // hypot and two roots: neither b^2 nor ac leaves double, whatever the fp32 coefficients.
+    // hypot and two roots keep b^2 and ac within double for any fp32 coefficients.
     return minusC / (halfB + std::hypot(halfB, std::sqrt(abc.z) * std::sqrt(minusC)));
 }
 
-/// At d metres from its position a light of the radiance L causes an irradiance of at most L A / (d - b)^2: with A the
-/// largest area that its surface shows and b the radius of the ball that it lies in, no part of it is nearer than d -
-/// b.
+/// At d metres from its position a light of radiance L causes an irradiance of at most L A / (d - b)^2, with A the
+/// largest area of its surface visible from any direction and b its bounding radius: no part is nearer than d - b.
 double areaReachMetres(const scenes::Light& light, double brightest, double tolerance) {
     return scenes::surfaceReachMetres(light) + std::sqrt(brightest * scenes::largestSeenArea(light) / tolerance);
 }

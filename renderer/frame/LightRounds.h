@@ -4,26 +4,26 @@
 #include "scenes/Limits.h"
 #include "shaders/shared/hook.h"
 
-/// How shaders get through all lights although Mesa's software rasterisers end loops early.
+/// Loop sizes with which shaders visit all lights despite the iteration limit of Mesa's software rasterisers.
 namespace tessera::frame {
 
-/// Iterations of all loops of a shader, nested ones included, that invocations which run together make between them;
-/// kMostLanesTogether may run together. After them every loop ends after its first iteration, without an error.
-/// Source: LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm/lp_bld_limits.h.
+/// Most iterations of all loops of a shader, nested ones included, summed over invocations that run together (up to
+/// kMostLanesTogether). Beyond it every loop ends after its first iteration, without an error. Source:
+/// LP_MAX_TGSI_LOOP_ITERATIONS in Mesa's gallivm/lp_bld_limits.h.
 inline constexpr std::size_t kMostLoopIterations = 65535;
 inline constexpr std::size_t kMostLanesTogether = 16;
-/// What loops other than those over lights may make: texture filters, the cells of a tile.
+/// Iterations reserved for loops other than those over lights: texture filters, the cells of a tile.
 inline constexpr std::size_t kOtherLoopIterations = 2048;
-/// What loops of a scene's hook make at most.
+/// Most iterations of the loops of a scene's hook.
 inline constexpr std::size_t kMostHookIterations = HOOK_ITERATIONS_MOST;
 static_assert(kMostHookIterations <= kMostLoopIterations - kOtherLoopIterations);
 
-/// Lights that a round of lib/lighting/lighting.glsl's loop visits at most: it spells out that many.
+/// Most lights per round of lib/lighting/lighting.glsl's loop, which is unrolled by that number.
 inline constexpr std::size_t kMostLightsPerRound = 8;
 
-/// The most iterations that lighting a surface takes with so many lights per round. Bitmasks (zbin) take more than
-/// lists: a round of its own for what is left of each word of 32 lights, and steps over words without any, which lanes
-/// that run together may take one after the other.
+/// Most iterations for lighting a surface with so many lights per round. Bitmasks (zbin) take more than lists: an extra
+/// round for the rest of each word of 32 lights, and steps over empty words, which lanes that run together may take one
+/// after the other.
 constexpr std::size_t loopIterations(std::size_t lights, std::size_t lightsPerRound) {
     const std::size_t words = (lights + 31) / 32;
     const std::size_t wordsAStep = lightsPerRound == 1 ? 1 : 2 * lightsPerRound; // lib/light/light_cursor.glsl
@@ -41,17 +41,16 @@ constexpr std::size_t lightsPerRound(std::size_t lights) {
 static_assert(loopIterations(scenes::kMostLights, lightsPerRound(scenes::kMostLights)) <=
               kMostLoopIterations - kOtherLoopIterations);
 
-/// Steps that a walk through the casters of a detailed scene takes (lib/shadow/caster_walk.glsl).
+/// Steps of a traversal of the caster tree in a detailed scene (lib/shadow/caster_walk.glsl).
 inline constexpr std::size_t kCasterWalkSteps = 150;
 
-/// CASTER_STEPS of a frame whose pixels send so many rays to lights: steps that an iteration spells out. Four at a time
-/// cost 1.2 to 1.7 times as much as single ones.
+/// CASTER_STEPS, the traversal steps that an iteration unrolls, for so many shadow rays per pixel. Unrolling four costs
+/// 1.2 to 1.7 times as much as one.
 constexpr std::size_t casterSteps(std::size_t rays) {
     return rays <= 256 ? 1 : rays <= 1024 ? 4 : 16;
 }
 
-/// Iterations of lib/shadow: a ray with its walk, the texels of pcf, and those of pcss, which are searched and
-/// averaged.
+/// Iterations of lib/shadow: a ray with its traversal, the texels of pcf, and the searched and averaged texels of pcss.
 constexpr std::size_t rayIterations(std::size_t steps) {
     return 1 + (kCasterWalkSteps + steps - 1) / steps;
 }

@@ -3,7 +3,7 @@
 #include <span>
 #include <string_view>
 
-/// Which shaders light the G-buffer. Names are those of the command line; the table is the only list.
+/// Shader stage that lights the G-buffer. Names are those of the command line; the table is the only list.
 namespace tessera::frame {
 
 enum class LightingStage : std::uint8_t { Fragment, Compute };

@@ -3,13 +3,13 @@
 
 #include <glm/glm.hpp>
 
-/// The shapes of GGX lobes, for the light of areas: transformed cosines (docs/area-lights.md). Source: Heitz, Dupuy,
-/// Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines".
+/// Linearly transformed cosines fitted to GGX lobes, for area lights (docs/area-lights.md). Source: Heitz, Dupuy, Hill,
+/// Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines".
 namespace tessera::frame {
 
-/// Four numbers an entry, LOBE_SHAPES_SIDE squared of them, row after row from the smallest alpha on:
-/// shaders/shared/lobe_shapes.h. Of the lobe with height-correlated masking and without Fresnel, times the cosine of
-/// the light.
+/// LOBE_SHAPES_SIDE squared entries of four numbers, row by row from the smallest alpha on:
+/// shaders/shared/lobe_shapes.h. They fit the lobe with height-correlated masking and without Fresnel, times the
+/// light's cosine.
 std::span<const glm::vec4> lobeShapes();
 
 } // namespace tessera::frame

@@ -16,21 +16,21 @@ namespace {
 
 using std::numbers::pi;
 constexpr double kSmallestAlpha = ALPHA_MIN, kSmallestCosine = 1e-4;
-constexpr int kNodes = 64, kTurns = 16; ///< of the integrals, away from an axis and around it
+constexpr int kNodes = 64, kTurns = 16; ///< of the integrals: radial and angular nodes
 constexpr double kGolden = 0.618033988749895;
 
 struct Sample {
     double cosLight = 0.0, cosIncidence = 0.0;
-    double weight = 0.0; ///< D G / (4 n.v) dl without masking of the light: 1 over all of them
+    double weight = 0.0; ///< D G / (4 n.v) dl without masking of the light; sums to 1
 };
 
 struct DiskPoint {
     double x = 0.0, y = 0.0, rim = 0.0; ///< rim: the largest y there
-    double weight = 0.0;                ///< 1 over all of them
+    double weight = 0.0;                ///< sums to 1
 };
 
-/// On a spiral, a golden angle apart: no two lie at one distance or angle, so that edges of what is integrated average
-/// out. Closer at the rim, where the facets are that lie far from the normal.
+/// Points on a golden-angle spiral: all radii and angles differ, so that discontinuities of the integrand average out.
+/// Denser at the rim, whose microfacets are farthest from the normal.
 std::array<DiskPoint, kNodes * kTurns> diskPoints() {
     std::array<DiskPoint, kNodes * kTurns> points;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -43,8 +43,8 @@ std::array<DiskPoint, kNodes * kTurns> diskPoints() {
     return points;
 }
 
-/// Maps points of a disk to the normals of facets that the viewer sees, and so to lights. Source: Heitz 2018, "Sampling
-/// the GGX Distribution of Visible Normals".
+/// Maps disk points to visible microfacet normals, and those to light directions. Source: Heitz 2018, "Sampling the GGX
+/// Distribution of Visible Normals".
 template <typename Visitor>
 void visitVisible(double alpha, double cosView, const Visitor& visit) {
     static const auto points = diskPoints();
@@ -63,7 +63,7 @@ void visitVisible(double alpha, double cosView, const Visitor& visit) {
     }
 }
 
-/// Smith's lengths, as shaders have them.
+/// Smith's length term, as in shaders.
 double smithLength(double alpha, double cosine) {
     return std::sqrt(alpha * alpha + (1.0 - alpha * alpha) * cosine * cosine);
 }
@@ -78,7 +78,7 @@ double dielectric(double ior, double cosine) {
     return 0.5 * first * first * (1.0 + second * second);
 }
 
-/// Of the angle with this cosine. Near index 1 the reflectance is 1 plus this, in parts of that at right angles.
+/// tan^4 of the angle with this cosine. Near index 1 the reflectance relative to normal incidence is 1 plus this.
 double tangent4(double cosine) {
     const double cosine2 = std::max(cosine * cosine, 1e-12), tangent2 = (1.0 - cosine2) / cosine2;
     return tangent2 * tangent2;
@@ -88,7 +88,7 @@ double fifth(double x) {
     return x * x * x * x * x;
 }
 
-/// Over lights by the cosine: the mean of `value(cosine of the light, of incidence)`.
+/// Cosine-weighted mean over light directions of `value(cosine of the light, of incidence)`.
 template <typename Value>
 double diffuseMean(double cosView, const Value& value) {
     const double sine = std::sqrt(1.0 - cosView * cosView);
@@ -103,15 +103,15 @@ double diffuseMean(double cosView, const Value& value) {
     return sum / (kNodes * kTurns);
 }
 
-/// Of Blinn's highlight (n.h)^p [n.l > 0] over all lights, by half vectors with the density (p + 1) / 2 pi (n.h)^p,
-/// times p + 2: it tends to 8 pi n.v, and so can be interpolated, and holds for lobes narrower than any of the table.
+/// The integral of Blinn's highlight (n.h)^p [n.l > 0] over light directions times p + 2, from half vectors with the
+/// density (p + 1) / 2 pi (n.h)^p. It tends to 8 pi n.v, so it can be interpolated and holds for narrower lobes too.
 double blinn(double exponent, double cosView) {
     const double sine = std::sqrt(1.0 - cosView * cosView);
     double sum = 0.0;
     for (int i = 0; i < kNodes; ++i)
         for (int j = 0; j < kTurns; ++j) {
             const double cosHalf = std::pow((i + 0.5) / kNodes, 1.0 / (exponent + 1.0));
-            // Each circle is turned a golden angle on, so that the edges where light ends average out.
+            // Rotates each circle by the golden ratio of a step, so that the edge at the horizon averages out.
             const double angle = 2.0 * pi * (j + std::fmod(kGolden * (i + 0.5), 1.0)) / kTurns;
             const double incidence = cosHalf * cosView + std::sqrt(1.0 - cosHalf * cosHalf) * sine * std::cos(angle);
             if (incidence > 0.0 && 2.0 * incidence * cosHalf - cosView > 0.0) sum += 4.0 * incidence;
@@ -119,7 +119,7 @@ double blinn(double exponent, double cosView) {
     return sum / (kNodes * kTurns) * 2.0 * pi * (exponent + 2.0) / (exponent + 1.0);
 }
 
-// Of sheens, the formulas of shaders/lib/reflectance/sheen.glsl.
+// Sheen: the formulas of shaders/lib/reflectance/sheen.glsl.
 double charlieFit(double x, double alpha) {
     const double w = (1.0 - alpha) * (1.0 - alpha);
     return std::lerp(21.5473, 25.3245, w) /
@@ -183,7 +183,7 @@ double cosineAt(double ior, double column) {
     return critical * (share < 0.5 ? 2.0 * share * share : 1.0 - 2.0 * left * left);
 }
 
-/// G2 / G1 of the viewer, of separable masking.
+/// G2 / G1(viewer) of separable masking.
 double separable(double alpha, double cosLight) {
     return 2.0 * cosLight / (cosLight + smithLength(alpha, cosLight));
 }
@@ -210,7 +210,7 @@ std::vector<glm::vec4> makeLobeTable() {
         const double viewLength = smithLength(alpha, cosView);
         glm::dvec4 ggx(0.0);
         std::array<double, LOBE_TABLE_IORS> ofIors{};
-        double whole = 0.0, tangents4 = 0.0; // with separable masking: of F = 1, and of the tangent of incidence^4
+        double whole = 0.0, tangents4 = 0.0; // with separable masking: means of F = 1 and of tan^4(incidence)
         visitVisible(alpha, cosView, [&](const Sample& sample) {
             if (!(sample.cosLight > 0.0)) return;
             const double lightLength = smithLength(alpha, sample.cosLight);

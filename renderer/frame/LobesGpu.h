@@ -6,8 +6,7 @@
 
 namespace tessera::frame {
 
-/// The tables of lobes on the GPU. Each is made when it is first asked for; that throws std::runtime_error when memory
-/// runs out.
+/// The tables of lobes on the GPU. Each is created on first use, which throws std::runtime_error when memory runs out.
 class LobesGpu {
 public:
     LobesGpu();
@@ -15,7 +14,7 @@ public:
     static graph::TextureDesc shapesDesc();
     const gpu::Texture& table();                           ///< as makeLobeTable()
     const gpu::Texture& shapes();                          ///< as lobeShapes()
-    const gpu::Sampler& smooth() const { return smooth_; } ///< between texels
+    const gpu::Sampler& smooth() const { return smooth_; } ///< bilinear, clamped
 
 private:
     std::unique_ptr<gpu::Texture> table_, shapes_;

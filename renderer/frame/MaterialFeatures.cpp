@@ -26,22 +26,22 @@ bool changesSpecular(const scenes::Material& material) {
             material.texture(scenes::TextureSlot::SpecularFactor).image != scenes::kNone);
 }
 
-/// Whether pixels of a material may differ in more than directions: by any texture that is no normal map, whether its
-/// model uses it or not, by anisotropy, which turns its alphas with the tangent, and by a film.
+/// Whether pixels of a material may differ in more than directions: by any texture other than a normal map, even if its
+/// model ignores it, by anisotropy, whose alphas rotate with the tangent, and by a thin film.
 bool varies(const scenes::Material& material) {
     for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots)
         if (!slot.isNormal && material.texture(slot.slot).image != scenes::kNone) return true;
     return scenes::isAnisotropic(material) || scenes::isIridescent(material);
 }
 
-/// Below it the light of an environment is not its filtered map's alone (shaders/lib/reflectance/mirrors.glsl). A tenth
-/// more, since the layout `slim` keeps alphas there in steps of 8 %.
+/// Below this alpha, environment lighting needs more than the filtered map (shaders/lib/reflectance/mirrors.glsl). The
+/// margin is 10 %, since the layout `slim` stores such alphas in steps of 8 %.
 constexpr double kSharpAlpha = 1.1 * ENVIRONMENT_LEAST_ALPHA;
 
-/// Half of the least alpha, so that rounding in shaders never finds more.
+/// Half of the least alpha: below it, rounding in shaders never yields more than ALPHA_MIN.
 constexpr double kSurelyMirrorAlpha = 0.5 * ALPHA_MIN;
 
-/// Whether a highlight of the material may be sharper, or light that passes through it. Textures may have any texel.
+/// Whether a highlight or a transmission lobe of the material may be sharper. Textures may contain any texel.
 bool mayMirror(const scenes::Material& material) {
     using scenes::Microsurface, scenes::TextureSlot;
     const auto isTextured = [&](TextureSlot slot) { return material.texture(slot).image != scenes::kNone; };
@@ -73,7 +73,7 @@ bool mayMirror(const scenes::Material& material) {
     return false;
 }
 
-/// The material in a scene, which may have no environment: then nothing reads occlusion.
+/// The material as shaders read it: without an environment, nothing reads occlusion.
 scenes::Material readMaterial(const scenes::Scene& scene, scenes::Material material) {
     if (!scene.environment) material.texture(scenes::TextureSlot::Occlusion) = {};
     return material;
@@ -113,12 +113,12 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
     set.add(Feature::VaryingMaterials, varies(material));
     const scenes::SubsurfaceMethodInfo& method = infoOf(scenes::subsurfaceOf(material, subsurface));
     set.add(Feature::SubsurfaceWrap, method.wraps);
-    // Light that spreads has passed through before.
+    // With diffusion, transmitted light is already part of the diffused irradiance.
     set.add(Feature::SubsurfacePassage, method.passes && !method.spreads);
     if (!method.spreads) return;
     set.add(Feature::SubsurfaceDiffusion);
-    // Surfaces hold the light that has spread over them as emission, and their own F0 as that of a dielectric:
-    // takeSpreadLight() of shaders/lib/raster/spread_light.glsl.
+    // Surfaces store diffused light as emission, and their F0 as that of a dielectric: takeSpreadLight() of
+    // shaders/lib/raster/spread_light.glsl.
     set.add(Feature::Emission);
     set.add(Feature::VaryingMaterials);
     set.add(Feature::Specular, model.microsurface == scenes::Microsurface::MetallicRoughness &&
@@ -171,7 +171,7 @@ FeatureSet materialFeatures(const scenes::Scene& scene, scenes::SubsurfaceReques
         set.add(Feature::VaryingMaterials);
         set.add(Feature::Mirrors, set.glossyModels());
     }
-    // More than fit their table are stored in the pixels as those that vary.
+    // If materials exceed their table, pixels store them like varying ones.
     set.add(Feature::VaryingMaterials, set[Feature::VertexColor] || materials.size() > MATERIAL_TABLE_MOST);
     return set;
 }
@@ -201,7 +201,7 @@ FeatureSet enteringFeatures(const scenes::Scene& scene, int material, int mesh) 
     set.add(Feature::VertexColor, !scene.meshes[std::size_t(mesh)].colors.empty());
     set.add(Feature::VaryingMaterials);
     set.add(Feature::Hook, scene.hook && scene.hook->changesSurfaces);
-    // Holes of what stands in the light's way.
+    // Alpha masks of shadow casters.
     for (const scenes::Material* other : scenes::materialsInUse(scene)) {
         if (other->alphaMode != scenes::AlphaMode::Mask) continue;
         scenes::Material masked;

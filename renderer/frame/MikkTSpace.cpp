@@ -13,33 +13,33 @@ namespace tessera::frame {
 
 namespace {
 
-using Corner = std::size_t; ///< place among the mesh's indices: three a triangle
+using Corner = std::size_t; ///< position in the mesh's indices: three per triangle
 constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
 
-/// A direction is rounding noise if it is below this fraction of the vectors that it is the difference of.
+/// A difference of vectors is rounding noise if it is shorter than this fraction of them.
 constexpr double kSmallestShare = 1e-12;
 
-/// Slivers whose angles add up to less, in radians, count alike: rounding makes up most of them.
+/// If the angles of all triangles sum to less, in radians, they get equal weights: rounding dominates such slivers.
 constexpr double kSmallestAngle = 1e-9;
 
 Corner turned(Corner corner, Corner by) {
     return corner / 3 * 3 + (corner + by) % 3;
 }
 
-/// Of unit length, or 0 where it has none.
+/// The normal at unit length, or 0 if its length is 0.
 glm::dvec3 unitNormal(const glm::vec3& normal) {
     const double length = glm::length(glm::dvec3(normal));
     return length > 0.0 ? glm::dvec3(normal) / length : glm::dvec3(0.0);
 }
 
-/// `vector` laid into the plane of a unit normal, unit; 0 where nothing is left of it and where there is no normal.
+/// `vector` projected into the plane of a unit normal, normalised; 0 if the projection vanishes or the normal is 0.
 glm::dvec3 laidInto(const glm::dvec3& normal, const glm::dvec3& vector) {
     const glm::dvec3 flat = vector * glm::dot(normal, normal) - normal * glm::dot(normal, vector);
     const double length = glm::length(flat);
     return length > kSmallestShare * glm::length(vector) ? flat / length : glm::dvec3(0.0);
 }
 
-/// The mesh's vertices by number of the first that is equal in position, normal and coordinates.
+/// For each vertex, the first one with equal position, normal and texture coordinates.
 std::vector<std::uint32_t> weldedVertices(const scenes::Mesh& mesh, const std::vector<glm::vec2>& uv) {
     struct Same {
         std::array<float, 8> values;
@@ -62,12 +62,12 @@ std::vector<std::uint32_t> weldedVertices(const scenes::Mesh& mesh, const std::v
     return welded;
 }
 
-/// What a triangle says of its texture.
+/// Texture mapping of a triangle.
 struct Face {
     glm::dvec3 alongU{0.0}; ///< object space, of any length
-    int sense = 0;          ///< 1, -1 where the texture is mirrored, 0 where it has no area and none is given yet
+    int sense = 0; ///< handedness: 1, -1 if the texture is mirrored, 0 if it has no area and has not inherited one yet
     bool saysNothing = false;
-    bool hasNoArea = false; ///< in space: two of its corners are one point
+    bool hasNoArea = false; ///< in object space: two of its corners coincide
 };
 
 class MikkTSpace {
@@ -110,7 +110,7 @@ private:
         const glm::dmat2 upwards = glm::dmat2(1.0, 0.0, 0.0, -1.0) * textureFromUv;
         const glm::dvec2 side1 = uv(corner + 1) - uv(corner), side2 = uv(corner + 2) - uv(corner);
         const glm::dvec2 along1 = upwards * side1, along2 = upwards * side2;
-        // By the sides as they are: turned by the texture, a line would get an area from rounding.
+        // From the untransformed sides: rounding in the transformed ones would give a line an area.
         const double area = glm::determinant(upwards) * glm::determinant(glm::dmat2(side1, side2));
         const glm::dvec3 edge1 = b - a, edge2 = c - a;
         const auto grows = [&](double share1, double share2) {
@@ -126,11 +126,11 @@ private:
         return face;
     }
 
-    /// Pairs the sides of triangles that run between the same vertices in opposite directions, first come first served.
+    /// Pairs triangle edges that join the same vertices in opposite directions, in order of appearance.
     void findNeighbours() {
         struct DirectedSide {
             std::uint32_t low, high;
-            Corner corner; ///< the side runs from here to the next
+            Corner corner; ///< the edge runs from here to the next corner
         };
         std::vector<DirectedSide> sides;
         for (Corner corner = 0; corner < 3 * faces_.size(); ++corner) {
@@ -141,7 +141,7 @@ private:
         std::sort(sides.begin(), sides.end(), [](const DirectedSide& a, const DirectedSide& b) {
             return std::tie(a.low, a.high, a.corner) < std::tie(b.low, b.high, b.corner);
         });
-        std::size_t oldest = 0; // of those that wait for a partner, all of which run in one direction
+        std::size_t oldest = 0; // of the unpaired edges, all of which run in one direction
         for (std::size_t i = 0; i < sides.size(); ++i) {
             const auto isBetweenTheSame = [&](std::size_t other) {
                 return sides[other].low == sides[i].low && sides[other].high == sides[i].high;
@@ -155,7 +155,7 @@ private:
         }
     }
 
-    /// Makes a group of the corners that share `start`'s vertex, hang together and are mirrored as it is.
+    /// Groups the corners that share `start`'s vertex and handedness and are connected by edges.
     void gather(Corner start) {
         const std::uint32_t group = std::uint32_t(tangents_.size());
         const int sense = faces_[start / 3].sense;
@@ -188,7 +188,7 @@ private:
         tangents_.emplace_back(glm::vec3(tangent), float(sense));
     }
 
-    /// Of the triangle at a corner, seen along the normal. A side along the normal stands at a right angle to all.
+    /// The triangle's angle at a corner, projected along the normal. An edge along the normal gives a right angle.
     double angleAt(Corner corner, const glm::dvec3& normal) const {
         const glm::dvec3 here = position(corner);
         const glm::dvec3 ahead = laidInto(normal, position(turned(corner, 1)) - here);
@@ -198,7 +198,7 @@ private:
         return cosine == 0.0 && sine == 0.0 ? std::acos(0.0) : std::atan2(sine, cosine);
     }
 
-    /// Corners of triangles that are no more than a line take the tangent that the first other triangle has there.
+    /// Gives the corners of degenerate triangles the tangent of the first other triangle at the same vertex.
     void joinFacesWithoutArea() {
         std::vector<Corner> firstAt(vertices_.size(), groupOf_.size());
         for (Corner corner = 3 * faces_.size(); corner-- > 0;)
@@ -213,7 +213,7 @@ private:
     const std::vector<glm::vec2>& uv_;
     std::vector<std::uint32_t> vertices_; ///< welded, by vertex of the mesh
     std::vector<Face> faces_;
-    std::vector<std::uint32_t> across_;  ///< by corner: where the neighbour's side begins that runs back along this one
+    std::vector<std::uint32_t> across_;  ///< by corner: start of the neighbour's edge that runs back along this one
     std::vector<std::uint32_t> groupOf_; ///< by corner
     std::vector<glm::vec4> tangents_;    ///< by group
 };

@@ -7,16 +7,16 @@
 
 namespace tessera::frame {
 
-/// Tangents by MikkTSpace, which glTF recommends and bakers use, one for each of a mesh's indices: xyz unit and
-/// perpendicular to the corner's normal, w the handedness. `textureFromUv` is the linear part of what the texture does
-/// to the coordinates of the set, which have v downwards; tangents have it upwards.
+/// Tangents by MikkTSpace, which glTF recommends and bakers use, one per mesh index: xyz unit and perpendicular to the
+/// corner's normal, w the handedness. `textureFromUv` is the linear part of the texture's transform of the coordinates,
+/// which have v downwards; tangents have it upwards.
 ///
-/// Vertices of equal position, normal and coordinates are one. Around a vertex, triangles that hang together by edges
-/// and are not mirrored against each other share a tangent: the mean of the directions in which u grows on each, laid
-/// into the plane of the normal, weighted by the triangle's angle in that plane. A triangle without area in texture
-/// space follows its neighbours, and so does one without area in space. Corners without such neighbours get a frame
-/// that is arbitrary but stable; its w is -1, as Blender's is. Takes memory linear in the
-/// mesh. Source: Mikkelsen 2008, "Simulation of Wrinkled Surfaces Revisited", section 3.
+/// Vertices of equal position, normal and coordinates are welded. Around a vertex, triangles that are connected by
+/// edges and have the same handedness share a tangent: the mean of their directions of increasing u, projected into the
+/// plane of the normal and weighted by the triangle's angle in that plane. A triangle without area in texture space or
+/// in object space follows its neighbours. Corners without such neighbours get an arbitrary but stable frame; its w is
+/// -1, as in Blender. Memory is linear in the mesh. Source: Mikkelsen 2008, "Simulation of Wrinkled Surfaces
+/// Revisited", section 3.
 std::vector<glm::vec4> mikkTSpaceTangents(const scenes::Mesh& mesh, std::size_t texCoordSet,
                                           const glm::dmat2& textureFromUv);
 

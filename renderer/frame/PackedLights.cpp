@@ -26,15 +26,15 @@ bool isUnseen(const scenes::Light& light, double reach, const CameraView& view) 
                        [&](const glm::dvec4& plane) { return glm::dot(plane, position) < -(reach + margin); });
 }
 
-/// 1/range^2, rounded up by eight times fp32's step: the shader multiplies it with a squared distance that three
-/// roundings may have made too small, and at the range the light must be exactly 0. A range whose square comes near the
-/// end of fp32 is packed as none: no position is that far.
+/// 1/range^2, enlarged by eight fp32 steps: the shader multiplies it by a squared distance that three roundings may
+/// have reduced, and at the range the light must be exactly 0. A range whose square nears the maximum of fp32 is packed
+/// as unlimited: no position is that far.
 float inverseSquaredRange(double rangeMetres) {
     if (rangeMetres > 1e18) return 0.0f;
     return float((1.0 + 0x1p-20) / (rangeMetres * rangeMetres));
 }
 
-/// A light in all its forms.
+/// All packed data of a light.
 struct PackedLight {
     int sceneIndex = 0;
     shared::LightTexels texels{};
@@ -42,8 +42,8 @@ struct PackedLight {
     shared::LightShadowTexels shadow{};
 };
 
-/// The cone of a type of LightReach::Cone, which is KHR_lights_punctual's: clamp((cos angle - cos outer) / max(0.001,
-/// cos inner - cos outer), 0, 1), squared by the shader, in the form that keeps its digits (shared/light.h). Returns
+/// Packs the cone of a LightReach::Cone type, as in KHR_lights_punctual: clamp((cos angle - cos outer) / max(0.001, cos
+/// inner - cos outer), 0, 1), squared by the shader, in a form without cancellation (shared/light.h). Returns
 /// LIGHT_BROAD or 0.
 int packCone(const scenes::Light& light, const glm::dvec3& travelLS, shared::LightShapeTexels& shape) {
     const double outer = double(light.outerConeRadians), cosOuter = std::cos(outer);
@@ -54,14 +54,14 @@ int packCone(const scenes::Light& light, const glm::dvec3& travelLS, shared::Lig
         return LIGHT_BROAD;
     }
     const double side = cosOuter > 0.0 ? 1.0 : -1.0;
-    // 1 - cos outer = 2 root^2, or 1 + cos outer.
+    // 2 root^2 = 1 - |cos outer|.
     const double root = cosOuter > 0.0 ? std::sin(0.5 * outer) : std::cos(0.5 * outer);
     shape.axis = glm::vec4(glm::vec3(side * travelLS), float(side * 0.5 * scale));
     shape.attenuation.w = float(side * 2.0 * root * root * scale);
     return 0;
 }
 
-/// The direction, if it is not the position already, and up to two parameters.
+/// Packs the direction and up to two parameters.
 void packParameters(const scenes::Light& light, const glm::dvec3& travelLS, shared::LightShapeTexels& shape) {
     const std::span<const scenes::LightParameter> parameters = scenes::infoOf(light.type).parameters;
     const auto valueOf = [&](std::size_t i) { return i < parameters.size() ? light.*parameters[i].member : 0.0f; };
@@ -75,7 +75,7 @@ static_assert(std::ranges::all_of(scenes::lightTypes(),
 static_assert(scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
               "a new shape needs its vectors in packArea(), and what they reach in surfaceReachMetres()");
 
-/// The surface of an area light (shared/light.h).
+/// Packs the surface of an area light (shared/light.h).
 void packArea(const scenes::Light& light, int picture, const glm::dmat3& lsFromWorld, shared::LightShapeTexels& shape) {
     const glm::dvec3 travelLS = lsFromWorld * light.directionWS;
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
@@ -98,7 +98,7 @@ void packArea(const scenes::Light& light, int picture, const glm::dmat3& lsFromW
     }
 }
 
-/// The outline of a polygon, of other types nothing (shared/light.h).
+/// Packs the outline of a polygon; zeros for other types (shared/light.h).
 shared::LightCornerTexels packCorners(const scenes::Light& light) {
     shared::LightCornerTexels packed{};
     if (!scenes::infoOf(light.type).hasCorners()) return packed;
@@ -198,7 +198,7 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
     PackedLights lights;
     LightPictures pictures = lightPictures(scene);
     std::vector<PackedLight> all;
-    std::optional<bool> hasCasters; // looked for where a light casts shadows
+    std::optional<bool> hasCasters; // computed once a light casts shadows
     int firstOn = -1, firstShadowed = -1;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const bool solo = settings.soloLight == int(i);
@@ -232,7 +232,7 @@ PackedLights packLights(const scenes::Scene& scene, const CameraView& view, cons
         }
     }
     lights.pictures = std::move(pictures.shown);
-    // Lighting runs code for shadows for the first lights alone.
+    // Lighting runs shadow code only for the first lights.
     const auto isShadowed = [](const PackedLight& packed) {
         return (int(packed.texels.color.w) & LIGHT_SHADOWED) != 0;
     };

@@ -39,12 +39,12 @@ glm::uint materialFlags(const scenes::Material& material) {
     return flags;
 }
 
-/// uvRow1[slot].w of the constants, but for what depends on the format of the texture.
+/// uvRow1[slot].w of the constants, without the part that depends on the texture's format.
 int textureModes(const scenes::Sampler& sampler) {
     const bool magnifiesNearest = gpu::takesNearest(sampler.magnification);
     const bool minifiesNearest = gpu::takesNearest(sampler.minification);
-    // OpenGL 4.5 core, section 8.15: where magnification is smooth and minification takes single texels of levels,
-    // magnification goes on up to half a level.
+    // OpenGL 4.5 core, section 8.15: with linear magnification and nearest texels of mip levels in minification,
+    // magnification applies up to level of detail 0.5.
     const bool halfLevel = !magnifiesNearest && minifiesNearest && sampler.minification != scenes::Filter::Nearest;
     return int(sampler.wrapU) + 4 * int(sampler.wrapV) + (magnifiesNearest ? TEXTURE_MODE_MAGNIFIES_NEAREST : 0) +
            (minifiesNearest ? TEXTURE_MODE_MINIFIES_NEAREST : 0) + (halfLevel ? TEXTURE_MODE_HALF_LEVEL : 0);
@@ -58,13 +58,13 @@ void packTexture(const scenes::TextureUse& use, glm::vec4& row0, glm::vec4& row1
     row1 = glm::vec4(turn[0].y, turn[1].y, offset.y, float(textureModes(use.sampler)));
 }
 
-/// What `microsurface.y` of the constants holds.
+/// Value of `microsurface.y` of the constants.
 float roughnessParameter(const scenes::Material& material) {
     float scenes::Material::*const member = scenes::infoOf(material.model).roughness;
     return member ? material.*member : 0.0f;
 }
 
-/// -1 where the matrix mirrors.
+/// -1 if the matrix mirrors, else 1.
 float sideOf(const glm::dmat2& turn) {
     return glm::determinant(turn) < 0.0 ? -1.0f : 1.0f;
 }
@@ -82,13 +82,13 @@ glm::vec4 packClearcoatTurn(const scenes::Material& material) {
     return {glm::vec2(turn[0]), sideOf(turn), 0.0f};
 }
 
-/// Beer's law: the natural logarithm of what is left after the thickness, at most 0. Single precision holds it for any
-/// thickness, and keeps its digits where next to all light is left. Source: KHR_materials_volume, "Attenuation".
+/// Beer's law: natural logarithm of the transmittance over the thickness, at most 0. It fits single precision for any
+/// thickness, and keeps its digits if nearly all light is transmitted. Source: KHR_materials_volume, "Attenuation".
 glm::vec3 logarithmLeftByBody(const scenes::Material& material) {
     glm::vec3 logarithm(0.0f);
     if (!(material.thicknessMetres > 0.0f) || !(material.attenuationDistanceMetres > 0.0f)) return logarithm;
     const double distances = double(material.thicknessMetres) / double(material.attenuationDistanceMetres);
-    constexpr double kLeast = -1e30; // which single precision holds; of black the logarithm has no bound
+    constexpr double kLeast = -1e30; // fits single precision; the logarithm of black is unbounded
     for (int c = 0; c < 3; ++c) {
         const auto color = double(material.attenuationColor[c]);
         logarithm[c] = float(color > 0.0 ? std::max(std::log(color) * distances, kLeast) : kLeast);
@@ -103,7 +103,7 @@ float halfSpread(const scenes::Material& material) {
     return scenes::disperses(material) ? float(0.5 * double(material.dispersion) / kAbbeNumberAtOne) : 0.0f;
 }
 
-/// Half the smallest side of the box around what has the material.
+/// Half the smallest side of the box around all surfaces with the material.
 double bodyRadiusMetres(const scenes::Scene& scene, int material) {
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
     scenes::Box3 boxWS;
@@ -133,7 +133,7 @@ PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::Subsurface
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
         const scenes::Subsurface& subsurface = scene.materials[i].subsurface;
         const scenes::SubsurfaceMethodInfo& method = infoOf(scenes::subsurfaceOf(scene.materials[i], request));
-        // The way inside is found among casters.
+        // The path length inside is measured by rays through casters.
         const bool passes = method.passes && scenes::castsShadow(scene.materials[i]);
         if (!inUse[i] || !(method.wraps || passes)) continue;
         packed.rowOf[i] = packed.rows.size();
@@ -145,7 +145,7 @@ PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::Subsurface
         }
         if (passes) {
             packed.passed[i] = packed.rowOf[i];
-            const double millimetres = 1e3 * double(subsurface.scaleMetres); // for each metre of the scene
+            const double millimetres = 1e3 * double(subsurface.scaleMetres); // per metre of the scene
             row.absorption = glm::vec4(millimetres * glm::dvec3(subsurface.absorptionPerMillimetre), 1.0f);
         }
     }

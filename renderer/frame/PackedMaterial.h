@@ -10,11 +10,11 @@ namespace tessera::frame {
 /// A material as the shaders read it; `subsurfaceRow` is that of its SubsurfaceConstants.
 shared::MaterialConstants packMaterial(const scenes::Material& material, std::size_t subsurfaceRow = 0);
 
-/// What lighting reads of materials with a subsurface.
+/// Subsurface constants that lighting reads.
 struct PackedSubsurfaces {
-    std::vector<shared::SubsurfaceConstants> rows; ///< the first is that of surfaces without one
+    std::vector<shared::SubsurfaceConstants> rows; ///< the first is for surfaces without subsurface scattering
     std::vector<std::size_t> rowOf;                ///< by material
-    std::vector<std::size_t> passed;               ///< the same of materials that let light through, else 0
+    std::vector<std::size_t> passed;               ///< row of materials that transmit light, else 0
 };
 PackedSubsurfaces packSubsurfaces(const scenes::Scene& scene, scenes::SubsurfaceRequest request);
 

@@ -35,7 +35,7 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& ob
     const FrameSettings& settings = prepared.spec.settings;
     Hash hash;
     hash.addFloats(texelsOf(prepared.lights, prepared.spec.features));
-    // Pictures never change, and what is packed says which is whose.
+    // Textures never change, and the packed lights refer to them by number.
     for (const ShownPicture& shown : prepared.lights.pictures)
         hash.add(std::uint64_t(reinterpret_cast<std::uintptr_t>(&*shown.texture)));
     hash.add(std::uint64_t(prepared.lights.shadowed));
@@ -43,7 +43,7 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& ob
     const PackedSubsurfaces subsurfaces = packSubsurfaces(scene, settings.subsurface);
     const std::size_t row = subsurfaces.rowOf[std::size_t(object.material)];
     hash.addFloats(std::vector{packMaterial(enteredMaterial(scene.materials[std::size_t(object.material)]), row)});
-    // Light passes through other objects of the same absorption alone.
+    // Light is transmitted only through objects of equal absorption, so all rows count.
     hash.addFloats(subsurfaces.rows);
     const LightSpread& spread = prepared.spec.spread.value();
     const auto addWeight = [&](const glm::dvec3& weight) {

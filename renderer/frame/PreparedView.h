@@ -12,27 +12,27 @@
 
 namespace tessera::frame {
 
-/// What is known of a view of a scene before any of it is on a GPU.
+/// A view's data on the CPU, before any upload to a GPU.
 struct PreparedView {
     CameraView camera;
     PackedLights lights;
     shared::LightingConstants lighting{};
-    shared::EnvironmentConstants environment{}; ///< where the spec has a map
-    shared::HookConstants hook{};               ///< where the spec has one
+    shared::EnvironmentConstants environment{}; ///< if the spec has an environment
+    shared::HookConstants hook{};               ///< if the spec has a hook
     std::vector<shared::SeenLightTexels> seenLights;
     FrameSpec spec;
     ShadowMaps shadowMaps;                             ///< empty where the view has none
-    std::vector<shared::ShadowFaceTexels> shadowFaces; ///< of those
-    std::vector<shared::CullLight> cullLights;         ///< parallel to lights.texels; empty where no lists are built
+    std::vector<shared::ShadowFaceTexels> shadowFaces; ///< of the shadow maps
+    std::vector<shared::CullLight> cullLights;         ///< parallel to lights.texels; empty without light lists
 
-    /// By cell of the view's SpreadLightAtlas: the objects that light spreads over, and the lights that reach them.
+    /// By cell of the view's SpreadLightAtlas: the diffusing objects, and the views that render their irradiance.
     std::vector<SpreadingObject> spreadingObjects;
     std::vector<PreparedView> spreadingViews;
 
     culling::FrameConstants constants() const { return {camera.constants, lighting}; }
 };
 
-/// Of all that the light spread over an object is computed from, but what never changes.
+/// Hash of all inputs of an object's diffused light that can change.
 std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& object, const PreparedView& prepared,
                            std::uint64_t casterRevision);
 

@@ -26,8 +26,8 @@ constexpr std::string_view kStreak =
     "an anisotropic highlight is a streak over much of a surface, and a coarse step of "
     "its alphas shows in all of it";
 constexpr std::string_view kThin = "an anisotropic highlight may be as thin as the normal's coarse step is wide";
-/// Below this alpha the normal of slim, 5.7e-4 rad off in the root mean square, changes a streak by more than 1e-4 in
-/// relMse: its radiance falls off by up to 1.5/alpha a radian.
+/// Below this alpha, the RMS error of slim's normal, 5.7e-4 rad, changes a streak by more than 1e-4 in relMse: its
+/// radiance falls off by up to 1.5/alpha per radian.
 constexpr float kThinAlpha = 0.1f;
 
 constexpr std::string_view kHooked = "a hook may emit more than its packed field can hold";
@@ -44,7 +44,7 @@ bool hasBrightColors(const scenes::Mesh& mesh) {
     });
 }
 
-/// Whether a material that is drawn is so.
+/// Whether any material in use satisfies the predicate.
 template <typename Predicate>
 bool anyMaterial(const scenes::Scene& scene, Predicate&& isSo) {
     const std::vector<const Material*> used = scenes::materialsInUse(scene);
@@ -64,20 +64,20 @@ bool hasBrightAlbedo(const scenes::Scene& scene) {
 
 bool hasBrightSpecular(const scenes::Scene& scene) {
     return anyMaterial(scene, [&](const Material& material) {
-        // The F0 of metallic_roughness is held to 1 before it is stored.
+        // The F0 of metallic_roughness is clamped to 1 before it is stored.
         return scenes::infoOf(material.model).highlight == scenes::Highlight::Tinted &&
                exceedsOne(scene, material.specularColor, material.texture(TextureSlot::SpecularColor));
     });
 }
 
-/// Of what is drawn on top nothing is stored.
+/// Whether a thin film is stored in the G-buffer; transparent surfaces are not.
 bool storesFilms(const scenes::Scene& scene) {
     return anyMaterial(scene, [](const Material& material) {
         return scenes::isIridescent(material) && !scenes::isTransparent(material);
     });
 }
 
-/// Whether a surface that is stored has the highlight of two alphas.
+/// Whether the material is stored in the G-buffer with an anisotropic highlight.
 bool storesStreak(const Material& material) {
     return scenes::isAnisotropic(material) && !scenes::isTransparent(material);
 }
@@ -110,7 +110,7 @@ std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::S
         found.push_back({Channel::Normal, Encoding::Packed, kGrazing});
     else if (layout[Channel::Normal] == Encoding::Slim && anyMaterial(scene, mayBeThin))
         found.push_back({Channel::Normal, Encoding::Packed, kThin});
-    // Both alphas alike, or an isotropic surface of the scene would become anisotropic.
+    // Refines both alphas: different steps would make isotropic surfaces of the scene anisotropic.
     if (anyMaterial(scene, storesStreak))
         for (const Channel channel : {Channel::Microsurface, Channel::Tangent})
             if (layout[channel] == Encoding::Slim) found.push_back({channel, Encoding::Packed, kStreak});

@@ -21,15 +21,15 @@ namespace tessera::frame {
 
 namespace {
 
-/// What GL guarantees to accept as offset of a uniform range (the largest GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT allowed).
+/// Uniform buffer offset alignment valid on every driver (the largest GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT allowed).
 constexpr std::size_t kUniformAlignment = 256;
 
 /// Bytes between the constants of two materials.
 constexpr std::size_t kMaterialStride =
     (sizeof(shared::MaterialConstants) + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
 
-/// Anisotropy of material textures under the hardware filter. Doubles the cost of a textured pass on software
-/// rasterisers, so it stays at trilinear.
+/// Anisotropy of material textures under the hardware filter. Larger values double the cost of a textured pass on
+/// software rasterisers, so it stays at trilinear.
 constexpr float kAnisotropy = 1.0f;
 
 std::vector<bool> transparentMaterials(const scenes::Scene& scene) {
@@ -56,7 +56,7 @@ gpu::VertexAttribute attribute(std::uint32_t location, int components, const gpu
     return result;
 }
 
-/// The rows of a draw. Each view has a buffer of its own for them.
+/// Vertex attributes of DrawRows; each view has its own buffer of them.
 const std::array<gpu::VertexAttribute, 6>& drawAttributes() {
     static const std::array<gpu::VertexAttribute, 6> attributes = [] {
         std::array<gpu::VertexAttribute, 6> result;
@@ -80,7 +80,7 @@ gpu::PipelineState stateOf(gpu::PipelineState state, bool doubleSided, bool mirr
     return state;
 }
 
-/// Whether what is drawn later covers what was drawn before.
+/// Whether the blend mode depends on the order of draws.
 bool isLayered(gpu::Blend blend) {
     return blend == gpu::Blend::AlphaPremultiplied || blend == gpu::Blend::AlphaStraight ||
            blend == gpu::Blend::Transmitting;
@@ -122,7 +122,7 @@ SceneGpu::Geometry SceneGpu::makeGeometry(const scenes::Scene& scene, const Feat
     stream(ATTRIBUTE_TEXCOORD0, "texture_coordinates_0", streams.texCoords[0]);
     stream(ATTRIBUTE_TEXCOORD1, "texture_coordinates_1", streams.texCoords[1]);
     stream(ATTRIBUTE_COLOR, "vertex_colors", streams.colors);
-    if (features[Feature::Shadows]) { // also of a scene without triangles, whose frame may ask for it all the same
+    if (features[Feature::Shadows]) { // also without triangles, since a frame may still bind it
         geometry.facetNormals = std::make_unique<gpu::Buffer>(gpu::Buffer::of("facet_normals", streams.facetNormalsOS));
         attributes.push_back(attribute(ATTRIBUTE_FACET_NORMAL, 3, geometry.facetNormals.get(), sizeof(glm::vec3)));
     }
@@ -168,7 +168,7 @@ SceneGpu::Materials SceneGpu::makeMaterials() {
     if (!features_[Feature::VaryingMaterials] && !tabled.empty())
         materials.tabled = std::make_unique<gpu::Buffer>(gpu::Buffer::of("material table", tabled));
     if (features_.enteringLight()) {
-        subsurfaces.rows.resize(SUBSURFACE_MOST); // as large as the block
+        subsurfaces.rows.resize(SUBSURFACE_MOST); // size of the uniform block
         materials.subsurfaces = std::make_unique<gpu::Buffer>(gpu::Buffer::of("subsurfaces", subsurfaces.rows));
     }
     return materials;
@@ -178,7 +178,7 @@ void SceneGpu::updateMaterials() {
     std::optional<Geometry> geometry;
     if (features_.tangents() && tangentBases(scene_) != geometry_.tangentBases)
         geometry = makeGeometry(scene_, features_);
-    // Transparent surfaces are drawn last, in an order of their own.
+    // Transparent surfaces are drawn last and sorted separately.
     std::optional<Draws> draws;
     if (geometry || transparentMaterials(scene_) != draws_.transparentMaterials)
         draws = makeDraws(geometry ? geometry->ranges : geometry_.ranges);
@@ -266,8 +266,8 @@ void SceneGpu::uploadTextures() {
                 bound_.push_back({white_.get(), nullptr});
             } else {
                 const bool srgb = scenes::infoOf(scenes::TextureSlot(slot)).isSrgb && !shadersDecode(material, slot);
-                // Exact filtering fetches texels. A sampler would change nothing there but the number of programs that
-                // a driver compiles: llvmpipe compiles one for each.
+                // Exact filtering fetches texels, so a sampler would only add programs for the driver to compile:
+                // llvmpipe compiles one for each.
                 const bool fetches = filter_ == TextureFilter::Exact;
                 bound_.push_back({uploadImage(use.image, srgb), fetches ? nullptr : sampler(use.sampler)});
             }
@@ -344,7 +344,7 @@ void SceneGpu::draw(const ViewBuffers& view, std::span<const Batch> batches, con
         const auto drawBatch = [&] {
             gpu::drawIndexedIndirect(view.commands, std::uint32_t(batch.first), std::uint32_t(batch.count));
         };
-        // Of a surface with two sides what faces away is behind what faces the camera, as long as it is convex.
+        // Draws back faces first: the right order of a two-sided surface if it is convex.
         if (isLayered(own.blend) && own.cullFace == gpu::CullFace::None) {
             own.cullFace = gpu::CullFace::Front;
             gpu::setState(own);

@@ -25,88 +25,87 @@ inline std::size_t trianglesIn(const gpu::DrawIndexedCommand& command) {
     return command.indexCount / 3;
 }
 
-/// A scene's geometry, materials and textures on the GPU. What `features` does not hold is not uploaded, nor meshes and
-/// textures that nothing drawn uses, and a table of materials only where they do not vary. With
-/// TextureFilter::Exact 8-bit colours are uploaded as the code values they are, since drivers decode sRGB formats only
-/// approximately, and no levels beyond the first, which the filter does not read. The scene and its
-/// closed meshes must outlive the object.
+/// A scene's geometry, materials and textures on the GPU. Uploads only attributes that `features` include, only meshes
+/// and textures in use, and the material table only if materials do not vary. With TextureFilter::Exact, textures have
+/// no mip levels, which the filter does not read, and 8-bit colours are uploaded as code values, since drivers decode
+/// sRGB formats only approximately. The scene and its closed meshes must outlive the object.
 class SceneGpu {
 public:
     SceneGpu(const scenes::Scene& scene, scenes::ClosedMeshes& closedMeshes, const FeatureSet& features,
              TextureFilter filter = TextureFilter::Hardware, scenes::SubsurfaceRequest subsurface = {});
 
-    /// Uploads the scene's current materials; their textures and features must be unchanged. Derives tangents anew
-    /// where a material follows others than before. Throws as makeVertexStreams() does, and std::runtime_error when
-    /// memory runs out; then all is as it was.
+    /// Uploads the scene's current materials; their textures and features must be unchanged. Recomputes tangents if a
+    /// material's TangentBasis changed. Throws as makeVertexStreams(), and std::runtime_error when memory runs out;
+    /// nothing changes then.
     void updateMaterials();
 
-    /// Uploads the scene's current meshes, nodes and materials; which instances there are, their attributes, triangles
-    /// and textures must be unchanged. Throws as updateMaterials(); then all is as it was.
+    /// Uploads the scene's current meshes, nodes and materials; the set of instances, their attributes, triangles and
+    /// textures must be unchanged. Throws as updateMaterials(); nothing changes then.
     void updateGeometry();
 
     const DrawList& drawList() const { return draws_.list; }
-    /// One for each draw that a view may see. Its baseInstance selects the draw's rows.
+    /// One command per visible draw of a view; its baseInstance selects the draw's rows.
     std::vector<gpu::DrawIndexedCommand> commandsOf(const ViewDraws& draws) const;
 
-    /// What commandsOf() and ViewDraws::rows say of a view, on the GPU.
+    /// ViewDraws::rows and commandsOf() of a view, on the GPU.
     struct ViewBuffers {
         const gpu::Buffer& rows;
         const gpu::Buffer& commands;
     };
-    /// Binds the vertex streams; then each batch of `batches` with its material, textures, winding and cull state.
-    /// `state` is the pass's pipeline state, of which culling and winding are the batch's, and with `transmitting` the
-    /// blending of materials that transmit.
+    /// Binds the vertex streams and draws each batch with its material, textures, winding and cull state. `state` is
+    /// the pass's pipeline state; batches override its culling and winding, and `transmitting` overrides the blending
+    /// of transmissive materials.
     void draw(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
               std::optional<gpu::Blend> transmitting = {}) const;
-    /// Triangles [first, first + count) of all that batches draw, in their order.
+    /// Triangles [first, first + count) of all batches, in their order.
     struct Part {
         std::span<const gpu::DrawIndexedCommand> commands; ///< commandsOf() the view
         std::size_t first = 0;
         std::size_t count = 0;
     };
-    /// The same as draw() of a part. Blended surfaces cannot be divided: of each batch one side comes before the other.
+    /// draw() of a part. Not for blended surfaces, whose back faces must all be drawn before their front faces.
     void drawPart(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
                   const Part& part) const;
-    /// What depth alone is drawn with.
+    /// Programs of depth-only passes.
     struct DepthPrograms {
-        const gpu::Program& bare;             ///< samples nothing and takes no material
-        const gpu::Program* masked = nullptr; ///< of materials with holes; null where there are none, or where
-                                              ///< a hole may count as surface, as in bounds of depths
+        const gpu::Program& bare;             ///< samples no textures and reads no material
+        const gpu::Program* masked = nullptr; ///< for masked materials; null without any, or if holes may count
+                                              ///< as surface, as in depth bounds
     };
-    /// The same as draw() for passes that want depth alone: materials are bound only where they have holes.
+    /// draw() for depth-only passes: binds only masked materials.
     void drawDepth(const ViewBuffers& view, std::span<const Batch> batches, const gpu::PipelineState& state,
                    const DepthPrograms& programs) const;
 
     std::span<const gpu::Buffer* const> vertices() const { return geometry_.streams; }
     const gpu::Buffer& indices() const { return *geometry_.indices; }
     const gpu::Buffer& materials() const { return *materials_.constants; }
-    /// The constants of all materials by their numbers (shaders/lib/material/material_table.glsl); null where frames of
-    /// the features do not need them.
+    /// The constants of all materials by number (shaders/lib/material/material_table.glsl); null if the features do not
+    /// need them.
     const gpu::Buffer* materialTable() const { return materials_.tabled.get(); }
 
-    /// SubsurfaceConstants of all materials; null where frames of the features do not need them.
+    /// SubsurfaceConstants of all materials; null if the features do not need them.
     const gpu::Buffer* subsurfaces() const { return materials_.subsurfaces.get(); }
 
-    /// Whether what is drawn hides light (scenes/Shadows.h).
+    /// Whether the draw casts shadows (scenes/Shadows.h).
     bool isCaster(const Draw& draw) const;
-    /// Changes where materials or geometry change what hides light; no two scenes share one.
+    /// Changes when materials or geometry change the casters; unique among scenes.
     std::uint64_t casterRevision() const { return casterRevision_; }
 
-    /// What hides lights.
+    /// The tree of shadow casters.
     struct Casters {
         CasterSpace space;
         std::unique_ptr<gpu::Buffer> texels;
     };
-    /// Sorts the casters anew where materials have changed which there are. Throws as makeCasterTree(), and
-    /// std::runtime_error where the driver cannot read so large a buffer.
+    /// Builds the caster tree, or rebuilds it if materials have changed the casters. Throws as makeCasterTree(), and
+    /// std::runtime_error if the driver cannot read so large a buffer.
     void makeCasters();
-    /// Those that were made last; null before.
+    /// The result of the last makeCasters(); null before.
     const Casters* casters() const { return casters_ ? &*casters_ : nullptr; }
 
-    /// Uploads VertexStreams::facetNormalsOS, what shadows ask of the triangles that are rasterised, with the vertices
-    /// that they copy. Throws as updateGeometry().
+    /// Uploads VertexStreams::facetNormalsOS, the triangle normals that shadows need, and the vertices copied for them.
+    /// Throws as updateGeometry().
     void makeFacetNormals();
-    /// Null before, unless the features have shadows.
+    /// Null before makeFacetNormals(), unless the features have shadows.
     const gpu::Buffer* facetNormals() const { return geometry_.facetNormals.get(); }
 
 private:
@@ -115,27 +114,27 @@ private:
         const gpu::Sampler* sampler = nullptr;
     };
     struct Geometry {
-        std::vector<std::optional<TangentBasis>> tangentBases; ///< by material, that the streams were made with
+        std::vector<std::optional<TangentBasis>> tangentBases; ///< by material, of the current streams
         VertexStreams::Ranges ranges;
         std::vector<std::unique_ptr<gpu::Buffer>> vertices;
-        std::vector<const gpu::Buffer*> streams; ///< the same
+        std::vector<const gpu::Buffer*> streams; ///< pointers to `vertices`
         std::unique_ptr<gpu::Buffer> indices;
         std::unique_ptr<gpu::Buffer> facetNormals; ///< null until makeFacetNormals()
         std::unique_ptr<gpu::VertexArray> array;
     };
     struct Draws {
-        std::vector<bool> transparentMaterials; ///< by material, that the list was made with
+        std::vector<bool> transparentMaterials; ///< by material, of the current list
         DrawList list;
         std::vector<VertexStreams::Range> ranges; ///< parallel to list.draws
     };
     struct Materials {
-        std::unique_ptr<gpu::Buffer> constants; ///< of each, 256 bytes or a multiple apart
-        std::unique_ptr<gpu::Buffer> tabled;    ///< the first MATERIAL_TEXELS of each, without gaps
+        std::unique_ptr<gpu::Buffer> constants; ///< per material, with a stride of a multiple of 256 bytes
+        std::unique_ptr<gpu::Buffer> tabled;    ///< the first MATERIAL_TEXELS of each material in use, without gaps
         std::unique_ptr<gpu::Buffer> subsurfaces;
         std::vector<bool> closedBodies; ///< scenes::closedBodies()
     };
-    /// What of a material decides which of its surfaces hide light: its casting, its alpha mode, cutoff and opacity,
-    /// and the row of SubsurfaceConstants that lets it through.
+    /// Material properties that determine the casters: whether it casts shadows, alpha mode, cutoff, opacity, and the
+    /// row of SubsurfaceConstants for transmission.
     using CasterMaterial = std::tuple<bool, scenes::AlphaMode, float, float, std::size_t>;
     std::vector<CasterMaterial> casterMaterials() const;
     static Geometry makeGeometry(const scenes::Scene& scene, const FeatureSet& features);
@@ -160,14 +159,14 @@ private:
     Draws draws_;
     Materials materials_;
     std::optional<Casters> casters_;
-    std::vector<CasterMaterial> treeMaterials_;    ///< by material, that casters_ were made with
+    std::vector<CasterMaterial> treeMaterials_;    ///< by material, of casters_
     std::vector<CasterMaterial> revisedMaterials_; ///< by material, of casterRevision_
     std::uint64_t casterRevision_ = 0;
     std::map<std::pair<int, bool>, std::unique_ptr<gpu::Texture>>
         textures_; ///< by image and whether it is decoded from sRGB
     std::vector<std::pair<scenes::Sampler, std::unique_ptr<gpu::Sampler>>> samplers_;
-    std::unique_ptr<gpu::Texture> white_; ///< what an empty slot samples
-    std::vector<BoundTexture> bound_;     ///< material-major, kTextureSlotCount a material
+    std::unique_ptr<gpu::Texture> white_; ///< bound to empty slots
+    std::vector<BoundTexture> bound_;     ///< material-major, kTextureSlotCount per material
 };
 
 } // namespace tessera::frame

@@ -22,8 +22,8 @@ static_assert(scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
               "a new shape needs its box in reachWS(), its back or inside in turnsAway() and its numbers in "
               "packSeenLights()");
 
-/// The three vectors, each at right angles to the others, by which a box around the surface reaches from the light's
-/// position, in metres; none across what is flat.
+/// Half extents of a box around the surface, centred at the light's position: three perpendicular vectors in metres;
+/// the third is 0 for flat lights.
 std::array<glm::dvec3, 3> reachWS(const scenes::Light& light) {
     const double radius = light.radiusMetres;
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
@@ -63,8 +63,8 @@ struct Window {
     }
 };
 
-/// Around the picture of a box, in normalised device coordinates: of its corners before the near plane, and where its
-/// edges pass through that.
+/// Bounds of a box's projection in normalised device coordinates: of its corners beyond the near plane, and of its
+/// edges' intersections with that plane.
 Window windowOf(const Corners& cornersWS, const scenes::Camera& camera, glm::ivec2 sizePixels) {
     const bool isPerspective = camera.projection == scenes::Projection::Perspective;
     const double halfHeight = isPerspective ? std::tan(0.5 * camera.fovYRadians) : camera.halfHeightMetres;
@@ -94,7 +94,7 @@ Window windowOf(const Corners& cornersWS, const scenes::Camera& camera, glm::ive
             add(place);
         }
     }
-    // Rounding to fp32 moves what is seen, and samples lie beside their pixel's centre.
+    // Margin for fp32 rounding, and for samples away from the pixel centre.
     constexpr double kRoomPixels = 2.0;
     const glm::dvec2 room = 2.0 * kRoomPixels / glm::dvec2(sizePixels);
     window.least -= room;
@@ -102,7 +102,7 @@ Window windowOf(const Corners& cornersWS, const scenes::Camera& camera, glm::ive
     return window;
 }
 
-/// Whether the eye sees no side of the surface that shines.
+/// Whether no emitting side of the surface faces the eye.
 bool turnsAway(const scenes::Light& light, const scenes::Camera& camera) {
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     const bool isPerspective = camera.projection == scenes::Projection::Perspective;
@@ -110,14 +110,14 @@ bool turnsAway(const scenes::Light& light, const scenes::Camera& camera) {
                                              : glm::dvec3(camera.worldFromCamera[2]);
     const double along = glm::dot(toEyeWS, light.directionWS);
     if (info.isFlat) return light.isTwoSided ? along == 0.0 : !(along > 0.0);
-    if (!isPerspective) return false; // rays begin all over the picture
+    if (!isPerspective) return false; // rays start all over the image
     const double radius = light.radiusMetres;
     if (!info.hasDirection) return glm::length(toEyeWS) <= radius;
     return std::abs(along) <= 0.5 * double(light.lengthMetres) &&
            glm::length(toEyeWS - along * light.directionWS) <= radius;
 }
 
-/// The light at the frame's time, if any camera may see it.
+/// The light at the frame's time, if its surface may be visible to any camera.
 std::optional<scenes::Light> shownLight(const scenes::Scene& scene, std::size_t index, const FrameSettings& settings) {
     const scenes::Light& still = scene.lights[index];
     if (!scenes::infoOf(still.type).isArea || !still.isSeen || !still.enabled) return {};

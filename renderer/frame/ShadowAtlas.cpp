@@ -14,9 +14,9 @@ namespace tessera::frame {
 
 namespace {
 
-/// The largest side of a face that follows from a picture. A larger one can be asked for.
+/// The largest automatic side of a face; ShadowMapSettings::resolutionTexels may be larger.
 constexpr int kMostFaceTexels = 2048;
-/// Every other bit of a Morton number.
+/// The even bits of a Morton code, compacted.
 int everyOtherBit(std::uint64_t bits) {
     int result = 0;
     for (int i = 0; i < 31; ++i) result |= int((bits >> (2 * i)) & 1u) << i;
@@ -34,7 +34,7 @@ glm::ivec2 atlasOf(std::uint64_t texels, int largestSide) {
     const auto mostInRow = std::uint64_t(kLargestSidePixels / largestSide);
     const std::uint64_t rows = (blocks + mostInRow - 1) / mostInRow;
     const std::uint64_t inRow = (blocks + rows - 1) / rows;
-    // Beyond what an int holds it fits no budget either way.
+    // Clamped to fit an int; such an atlas exceeds any budget.
     const auto side = [&](std::uint64_t count) {
         return int(std::min(count * std::uint64_t(largestSide), std::uint64_t(1) << 30));
     };
@@ -54,12 +54,12 @@ std::vector<int> fitBudget(std::span<const ShadowDemand> lights, double budgetBy
     struct Halving {
         double cost;
         std::size_t light;
-        bool operator<(const Halving& other) const { // the one with the least cost is on top; of equal ones the last
+        bool operator<(const Halving& other) const { // least cost on top; of equal ones the last
             return cost != other.cost ? cost > other.cost : light < other.light;
         }
     };
     std::uint64_t texels = 0;
-    std::map<int, int> sides; // how many lights have it
+    std::map<int, int> sides; // number of lights by side
     const auto count = [&](std::size_t i, int sign) {
         const auto side = std::uint64_t(sidesTexels[i]);
         texels += std::uint64_t(sign) * std::uint64_t(lights[i].faces) * side * side;

@@ -7,16 +7,16 @@ namespace tessera::frame {
 
 namespace {
 
-/// Widest half angle of a spot light that one face holds: its tangent is 2.7, so texels at the rim are 8 times as large
-/// as in the middle. Wider cones have six faces, as point lights.
+/// Widest half angle of a spot light with a single face: its tangent is 2.7, so texels at the rim are 8 times as large
+/// as at the centre. Wider cones use six faces, like point lights.
 constexpr double kMostSpotRadians = 1.22;
-/// By how much the ball around all that is drawn is enlarged for rounding.
+/// Enlarges the scene's bounding sphere for rounding.
 constexpr double kSceneRoom = 1.001;
-/// Between even cascades (0) and ones that grow by equal ratios (1): Zhang et al. 2006, "Parallel-split shadow maps".
+/// Blend between uniform (0) and logarithmic (1) cascade splits: Zhang et al. 2006, "Parallel-split shadow maps".
 constexpr double kSplitByRatio = 0.8;
-/// The first cascade begins no nearer than this share of the farthest depth: it would be of millimetres.
+/// Least start of the splits as a fraction of the farthest depth: nearer ones give cascades of millimetres.
 constexpr double kNearestSplit = 0.01;
-/// Lengths that cascades follow from are steps of this ratio, so that a moving camera does not change their texels.
+/// Cascade lengths are rounded to powers of this ratio, so that a moving camera does not change their texels.
 constexpr double kStep = 1.189207115002721; // 2^(1/4)
 
 double steppedUp(double metres) {
@@ -44,10 +44,9 @@ glm::dvec3 axisAcross(const glm::dvec3& directionWS) {
                                                 : glm::dvec3(0.0, 0.0, 1.0);
 }
 
-// ---- Lights with a place ----
+// ---- Lights with a position ----
 
-/// A perspective camera whose picture ends `borderTexels` behind what it is looked up for, which is as wide as twice
-/// the tangent.
+/// Sets the field of view so that `borderTexels` surround the part of the image with half width `tangent`.
 void setLens(scenes::Camera& camera, double tangent, int sideTexels, int borderTexels) {
     const double within = std::max(1.0 - 2.0 * borderTexels / double(sideTexels), 0.25);
     camera.fovYRadians = 2.0 * std::atan(tangent / within);
@@ -55,7 +54,7 @@ void setLens(scenes::Camera& camera, double tangent, int sideTexels, int borderT
 
 // ---- Cascades ----
 
-/// Depths [near, far] of a view from which the cascades are made, and spheres around what it sees between them.
+/// View depths [near, far] that the cascades divide.
 struct Slices {
     double nearMetres = 0.0, farMetres = 0.0;
 
@@ -77,7 +76,7 @@ Slices slicesOf(const CameraView& view, const Ball& scene, double nearMetres) {
     return slices;
 }
 
-/// Around what the view sees between two depths.
+/// Bounding sphere of the view frustum between two depths.
 Ball ballAround(const CameraView& view, const glm::ivec2& sizePixels, double nearMetres, double farMetres) {
     const glm::dvec3 forwardWS = glm::transpose(view.lsFromWorld) * view.forwardLS;
     const double halfDiagonal = 0.5 * glm::length(glm::dvec2(sizePixels) * glm::dvec2(view.constants.rayFromPixel));
@@ -85,7 +84,7 @@ Ball ballAround(const CameraView& view, const glm::ivec2& sizePixels, double nea
     if (isParallel)
         return {view.eyeWS + 0.5 * (nearMetres + farMetres) * forwardWS,
                 glm::length(glm::dvec2(halfDiagonal, 0.5 * (farMetres - nearMetres)))};
-    // As far from the corners of the near end as from those of the far one, or in the middle of the far one.
+    // Centre at equal distances from the near and the far corners, but no farther than the far end.
     const double middle = std::min(0.5 * (nearMetres + farMetres) * (1.0 + halfDiagonal * halfDiagonal), farMetres);
     return {view.eyeWS + middle * forwardWS, glm::length(glm::dvec2(farMetres - middle, halfDiagonal * farMetres))};
 }
@@ -102,7 +101,6 @@ Ball ballAround(std::span<const SurfaceBounds> bounds) {
     return {0.5 * (box.min + box.max), 0.5 * glm::length(box.max - box.min)};
 }
 
-/// The cone of a spot light, or the narrower one around all that is drawn, seen from beside it.
 std::optional<ShadowCone> shadowConeOf(const scenes::Light& light, const Ball& scene) {
     std::optional<ShadowCone> cone;
     const double widest = std::tan(kMostSpotRadians);
@@ -151,7 +149,7 @@ std::vector<scenes::Camera> cascadeCameras(const glm::dvec3& directionWS, int co
         Ball seen = ballAround(view, sizePixels, slices.split(i, count), slices.split(i + 1, count));
         if (!(seen.radiusMetres < scene.radiusMetres)) seen = scene;
         seen.radiusMetres = std::max(steppedUp(seen.radiusMetres), 1e-9);
-        // A texel more, since the middle is moved by up to one.
+        // One more texel, since snapping moves the centre by up to one.
         const double within = std::max(1.0 - 2.0 * (borderTexels + 1) / double(sideTexels), 0.25);
         const double halfMetres = seen.radiusMetres / within;
         const double texelMetres = 2.0 * halfMetres / double(sideTexels);

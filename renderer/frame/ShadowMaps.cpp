@@ -11,15 +11,15 @@ namespace tessera::frame {
 
 namespace {
 
-/// What lights are planned from.
+/// A light and the extents that its faces are planned from.
 struct Wanted {
     scenes::Light light; ///< at the frame's time
     double reachMetres = 0.0;
     std::optional<ShadowCone> cone;
 };
 
-/// How much of the picture a light may reach, and how wide a face's end is there at most: as seen from the nearest
-/// place that the light reaches, but from no nearer than a quarter of its reach.
+/// Pixels in range of a light, and the largest width of a face's far end in the image: as seen from the nearest point
+/// in range, but from no nearer than a quarter of the range.
 ShadowDemand demandOf(const Wanted& wanted, const CameraView& view, const FrameSettings& settings, const Ball& scene) {
     const glm::ivec2 whole = settings.wholePixels.value_or(settings.sizePixels);
     const double side = double(std::max(whole.x, whole.y));
@@ -35,7 +35,7 @@ ShadowDemand demandOf(const Wanted& wanted, const CameraView& view, const FrameS
     const double distance = glm::distance(wanted.light.positionWS, view.eyeWS);
     const double fromEye =
         std::max(distance - wanted.reachMetres, glm::distance(scene.centreWS, view.eyeWS) - scene.radiusMetres);
-    // A metre ahead, or anywhere.
+    // At unit distance (perspective) or at any distance (orthographic).
     const double metresPerPixel =
         double(view.constants.rayFromPixel.y) * double(settings.sizePixels.y) / double(whole.y);
     const bool isParallel = view.constants.forwardLS.w != 0.0f;
@@ -43,7 +43,7 @@ ShadowDemand demandOf(const Wanted& wanted, const CameraView& view, const FrameS
     const double widthMetres =
         std::min(2.0 * wanted.reachMetres * (wanted.cone ? wanted.cone->tangent : 1.0), 2.0 * scene.radiusMetres);
     if (pixelMetres > 0.0) demand.pictureTexels = std::min(widthMetres / pixelMetres, side);
-    // What lies both within its reach and in the scene is seen within the smaller disk of the two balls.
+    // Surfaces in range lie within both the light's sphere and the scene's: they cover at most the smaller disk.
     const auto diskPixels = [&](double metres, double radius) {
         const double ahead = isParallel ? 1.0 : std::sqrt(std::max((metres - radius) * (metres + radius), 0.0));
         const double radiusPixels = radius / std::max(ahead * metresPerPixel, 1e-30);
@@ -54,9 +54,9 @@ ShadowDemand demandOf(const Wanted& wanted, const CameraView& view, const FrameS
     return sized();
 }
 
-/// By how much rounding moves a surface against the faces of a light, beside what grows with its own distance from the
-/// origin of lighting space. A vertex is added up from the way to its node and from there. Either the node is near, or
-/// all of its mesh is as far away as the node, less its own extent.
+/// Rounding error in metres of a surface relative to a light's faces, without the part proportional to the surface's
+/// distance from the origin of lighting space. A vertex is the sum of its node's position and its offset from the node.
+/// Either the node is near, or the whole mesh is as far away as the node, less the mesh's extent.
 double roundingMetres(const ShadowMaps& maps, const ShadowedLight& light, const CameraView& view,
                       std::span<const SurfaceBounds> bounds) {
     double objectMetres = 0.0;
@@ -64,7 +64,7 @@ double roundingMetres(const ShadowMaps& maps, const ShadowedLight& light, const 
         const double nodeMetres = std::min(glm::distance(one.nodeWS, view.originWS), one.reachMetres);
         objectMetres = std::max(objectMetres, 2.0 * nodeMetres + one.longestMetres);
     }
-    double faceMetres = 0.0; // the faces of a directional light begin at different places
+    double faceMetres = 0.0; // the faces of a directional light have different origins
     for (std::size_t i = light.firstFace; i < light.firstFace + std::size_t(light.faces); ++i)
         faceMetres =
             std::max(faceMetres, glm::distance(glm::dvec3(maps.faces[i].camera.worldFromCamera[3]), view.originWS));
@@ -94,7 +94,7 @@ std::string shadowFaceName(int i, int faces) {
 }
 
 int shadowTapTexels(const FrameSettings& settings) {
-    // Half of the square, and a texel into which a tap between texels reaches.
+    // Half of the square, and a texel for taps between texels.
     return infoOf(settings.shadowFilter).heedsWidth ? settings.shadowMaps.widthTexels / 2 + 2 : 1;
 }
 
@@ -140,7 +140,7 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
                                  border);
         for (scenes::Camera& camera : cameras) {
             ShadowFace& face = maps.faces.emplace_back(ShadowFace{std::move(camera), glm::ivec2(0), light.sideTexels});
-            // Views of shadows show them beyond the light's reach too.
+            // Views of shadows show them beyond the light's range too.
             const bool isCut = scenes::infoOf(shining.type).hasPosition() && !showsShadowsOfOne(settings.view) &&
                                !showsMaps(settings.view);
             if (isCut) face.reachMetres = wanted[i].reachMetres;
@@ -153,7 +153,7 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
     }
     maps.usualMetres = usualMetres(bounds);
     std::vector<glm::ivec2> corners;
-    // A texture has a texel, also where no light is left to have a face.
+    // At least one texel, even if no light has a face.
     maps.atlasTexels = glm::max(placeFaces(sides, corners), glm::ivec2(1));
     for (std::size_t i = 0; i < maps.faces.size(); ++i) maps.faces[i].cornerTexels = corners[i];
     return maps;
@@ -161,7 +161,7 @@ ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights
 
 CameraView faceView(const ShadowFace& face) {
     CameraView view = makeCameraView(face.camera, glm::ivec2(face.sideTexels), LightingSpace::World, glm::vec3(0.0f));
-    // Pixels are those of the atlas.
+    // Pixel coordinates are those of the atlas.
     view.constants.rayFromPixel.z += float(face.cornerTexels.x);
     view.constants.rayFromPixel.w += float(face.cornerTexels.y);
     return view;

@@ -11,10 +11,10 @@ bool haveOnePlace(const ShadowFace& a, const ShadowFace& b) {
     return a.cornerTexels == b.cornerTexels && a.sideTexels == b.sideTexels;
 }
 
-/// Whether all of a draw lies farther along a face's camera than its light reaches.
+/// Whether a draw lies entirely beyond the light's range along a face's camera.
 bool isBeyond(const Draw& draw, const glm::dvec3& objectWS, const ShadowFace& face, const CameraView& view) {
     if (std::isinf(face.reachMetres) || draw.boxWS.empty()) return false;
-    constexpr double kRangeRounding = 1e-5; // of the light's range in fp32, whose reciprocal shaders square
+    constexpr double kRangeRounding = 1e-5; // of the range in fp32; shaders read its inverse square
     const glm::dvec3 forwardWS = view.forwardLS * view.lsFromWorld;
     const glm::dvec3 low = draw.boxWS.min - view.eyeWS, high = draw.boxWS.max - view.eyeWS;
     const double nearest = glm::dot(glm::min(low * forwardWS, high * forwardWS), glm::dvec3(1.0));
@@ -25,7 +25,7 @@ bool isBeyond(const Draw& draw, const glm::dvec3& objectWS, const ShadowFace& fa
 
 bool ShadowMemory::begin(const ShadowMaps& maps, const SceneGpu& scene, bool holdsAtlas, bool culls) {
     const std::uint64_t casters = scene.casterRevision();
-    // Where one face has moved, others may lie over it.
+    // If one face has moved, another one may overwrite it.
     const bool keeps =
         holdsAtlas && casters == held_.casters && std::ranges::equal(maps.faces, held_.faces, haveOnePlace);
     if (!keeps) held_ = {};

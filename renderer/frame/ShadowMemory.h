@@ -8,7 +8,7 @@
 
 namespace tessera::frame {
 
-/// What the faces of an atlas are drawn from, all of them behind one another.
+/// Draw data of the atlas faces to render, concatenated.
 struct ShadowDraws {
     struct Face {
         glm::ivec2 corner{0}; ///< texels of the atlas
@@ -21,21 +21,21 @@ struct ShadowDraws {
     std::vector<Face> faces;
 };
 
-/// Which faces the atlas of a view holds from earlier frames. A face holds as long as its camera, its place and the
-/// casters are the same.
+/// The faces of a view's atlas that are valid from earlier frames. A face is valid as long as its camera, its place and
+/// the casters are the same.
 class ShadowMemory {
 public:
-    /// Collects the faces to draw, all of them where the atlas is not held. Returns whether there are any.
+    /// Collects the faces to draw, all of them if the atlas was not kept. True if there are any or it was not kept.
     bool begin(const ShadowMaps& maps, const SceneGpu& scene, bool holdsAtlas, bool culls);
     const ShadowDraws& draws() const { return draws_; }
-    /// They are drawn.
+    /// Marks the collected faces as drawn.
     void end() {
         held_ = std::move(begun_);
         drawnFaces_ = draws_.faces.size();
     }
     /// Faces drawn since begin().
     std::size_t drawnFaces() const { return drawnFaces_; }
-    /// Of its atlas, unique among living memories; the first is 0.
+    /// Number of its atlas, unique among existing memories; the first is 0.
     std::size_t number() const { return number_; }
 
 private:
@@ -51,14 +51,13 @@ private:
     std::size_t drawnFaces_ = 0;
 };
 
-/// A memory for each view of a frame and each way to make maps, so that settings whose frames run in turn keep their
-/// faces.
+/// One memory per view of a frame and per shadow map settings, so that alternating settings keep their faces.
 class ShadowMemories {
 public:
-    /// Valid until it was not asked for in kMostIdleFrames frames.
+    /// Valid until unused for kMostIdleFrames frames.
     ShadowMemory& of(std::size_t view, const FrameSettings& settings);
     void beginFrame();
-    /// All faces are to be drawn again.
+    /// Invalidates all faces.
     void forget();
 
     static constexpr int kMostIdleFrames = 16;

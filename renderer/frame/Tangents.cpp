@@ -20,12 +20,12 @@ bool hasAnisotropyMap(const scenes::Material& material) {
            material.texture(TextureSlot::Anisotropy).image != scenes::kNone;
 }
 
-/// Whether the slot's texture holds vectors. That of an alpha along the bitangent holds a number.
+/// Whether the slot's texture stores vectors; that of an alpha along the bitangent stores a scalar.
 bool holdsVectors(const scenes::Material& material, TextureSlot slot) {
     return slot == TextureSlot::Anisotropy ? hasAnisotropyMap(material) : material.texture(slot).image != scenes::kNone;
 }
 
-/// The slot that the tangents follow.
+/// The slot whose texture coordinates define the tangents.
 std::optional<TextureSlot> followedSlot(const scenes::Material& material) {
     const bool normalMap = material.texture(TextureSlot::Normal).image != scenes::kNone;
     if (normalMap && material.normalMapSpace == scenes::NormalMapSpace::Tangent) return TextureSlot::Normal;
@@ -40,8 +40,8 @@ glm::dmat2 vectorTransform(const scenes::Material& material, TextureSlot slot) {
     return holdsVectors(material, slot) ? linearPart(material.texture(slot).transform) : glm::dmat2(1.0);
 }
 
-/// The axes of a texture, u and against v, as unit vectors along a mesh's tangent and bitangent, with v made
-/// perpendicular to u. A texture that is scaled to nothing has the mesh's.
+/// The axes of a texture, u and -v, as unit vectors in the mesh's tangent and bitangent, with v made perpendicular to
+/// u. A degenerate transform gives the mesh's axes.
 glm::dmat2 axesOf(const glm::dmat2& textureFromUv) {
     const double area = glm::determinant(textureFromUv);
     if (area == 0.0) return glm::dmat2(1.0);
@@ -78,10 +78,10 @@ std::vector<glm::vec4> summedTangents(const scenes::Mesh& mesh, const TangentBas
     tangents.reserve(alongU.size());
     for (std::size_t i = 0; i < alongU.size(); ++i) {
         const glm::dvec3 normal(mesh.normalsOS[i]);
-        // The normal's length is off by its rounding to fp32, which matters where the texture runs nearly along it.
+        // Divides by the squared length: fp32 rounding of the normal matters where u is nearly parallel to it.
         const glm::dvec3 flat = alongU[i] - normal * (glm::dot(normal, alongU[i]) / glm::dot(normal, normal));
         const double length = glm::length(flat);
-        // Below this share of its own length the direction is rounding noise.
+        // Below this fraction of its length the direction is rounding noise.
         const bool hasDirection = length > 1e-12 * glm::length(alongU[i]) && length > 0.0;
         const glm::dvec3 tangent = hasDirection ? flat / length : anyPerpendicular(normal);
         const bool mirrored = hasDirection && glm::dot(glm::cross(normal, tangent), alongV[i]) < 0.0;
@@ -106,7 +106,7 @@ std::vector<glm::vec4> turnedTangents(const scenes::Mesh& mesh, const glm::dmat2
     return tangents;
 }
 
-/// Gives every vertex the first of its corners' tangents, and a copy for each other that they have.
+/// Gives each vertex the first of its corners' tangents, and adds a copy for each further tangent.
 TangentMesh splitByTangent(const scenes::Mesh& mesh, const std::vector<glm::vec4>& cornerTangents) {
     std::vector<std::uint32_t> corners(cornerTangents.size()); // by vertex, then by tangent
     std::iota(corners.begin(), corners.end(), 0u);
@@ -119,7 +119,7 @@ TangentMesh splitByTangent(const scenes::Mesh& mesh, const std::vector<glm::vec4
 
     TangentMesh split;
     split.indices.resize(mesh.indices.size());
-    split.tangentsOS.assign(mesh.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f)); // where no triangle is
+    split.tangentsOS.assign(mesh.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f)); // for unused vertices
     std::uint32_t vertex = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const std::uint32_t corner = corners[i], own = mesh.indices[corner];

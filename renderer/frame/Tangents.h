@@ -9,36 +9,35 @@
 
 namespace tessera::frame {
 
-/// What the tangents follow of the meshes that a material is drawn on.
+/// How tangents are derived for the meshes of a material.
 struct TangentBasis {
     scenes::TangentMethod method = scenes::TangentMethod::MikkTSpace;
     int texCoordSet = 0;
-    glm::dmat2 textureFromUv{1.0}; ///< linear part of the transform of the texture's coordinates, v downwards
+    glm::dmat2 textureFromUv{1.0}; ///< linear part of the transform of the texture coordinates, v downwards
     bool operator==(const TangentBasis&) const = default;
 };
 
-/// Empty where the material needs no tangents. They follow its tangent-space normal map, else its direction of
-/// anisotropy, else the normal map of its coat.
+/// Empty if the material needs no tangents. They follow the texture coordinates of its tangent-space normal map, else
+/// of its anisotropy, else of its coat's normal map.
 std::optional<TangentBasis> tangentBasis(const scenes::Material& material);
 
-/// From vectors in a texture of the slot, x along u and y against v, to the frame of tangent and bitangent that
-/// tangentBasis() names: a rotation, and a mirroring where just one of them is mirrored. Both are taken for the mesh's
-/// own frame, turned by the transforms of the two textures; an empty slot has none.
+/// Transforms vectors in a texture of the slot, x along u and y along -v, to the tangent frame of tangentBasis(): a
+/// rotation, mirrored if just one of the two is mirrored. Both frames are the mesh's, rotated by the transforms of the
+/// two textures; an empty slot has no transform.
 glm::dmat2 tangentsFromTexture(const scenes::Material& material, scenes::TextureSlot slot);
 
-/// A mesh with tangents. What its triangles cannot share is split: vertices beyond the mesh's own are copies.
+/// A mesh with tangents. Vertices that triangles cannot share are split: those beyond the mesh's are copies.
 struct TangentMesh {
     std::vector<std::uint32_t> indices;  ///< as many as the mesh's
-    std::vector<std::uint32_t> copiedOf; ///< by added vertex: which of the mesh's own it is but for its tangent
+    std::vector<std::uint32_t> copiedOf; ///< by added vertex: the mesh vertex that it copies except for the tangent
     std::vector<glm::vec4> tangentsOS;   ///< by vertex, the added ones last; xyz unit, w +1 or -1
 };
 
-/// The mesh's own tangents, where it has some, are those of its texture coordinates as they are: they are turned and
-/// mirrored as the texture is. Where it has none they are derived by the basis's method from the transformed
-/// coordinates, v upwards.
-/// Source: glTF 2.0, "Meshes"; KHR_texture_transform; glTF Sample Renderer, which turns tangents the same way;
+/// Rotates and mirrors the mesh's tangents, if it has any, by the texture's transform: they belong to the untransformed
+/// texture coordinates. Else derives them by the basis's method from the transformed coordinates, v upwards.
+/// Source: glTF 2.0, "Meshes"; KHR_texture_transform; glTF Sample Renderer, which rotates tangents the same way;
 /// MikkTSpace.h; Lengyel 2001, "Computing Tangent Space Basis Vectors for an Arbitrary Mesh", where each vertex sums
-/// the directions in which u grows over its triangles without weights and is never split.
+/// the directions of increasing u over its triangles without weights and is never split.
 TangentMesh meshWithTangents(const scenes::Mesh& mesh, const TangentBasis& basis);
 
 } // namespace tessera::frame

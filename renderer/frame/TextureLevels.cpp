@@ -36,7 +36,7 @@ Component componentAt(const scenes::Image& image, std::size_t index) {
     return component;
 }
 
-/// A component of a picture, in linear light.
+/// A component of an image, in linear light.
 float linearAt(const scenes::Image& image, bool srgb, std::size_t index) {
     if (image.format == TexelFormat::Rgba32Float) return componentAt<float>(image, index);
     const bool isEncoded = srgb && index % 4 != 3;
@@ -53,21 +53,21 @@ float linearAt(const scenes::Image& image, bool srgb, std::size_t index) {
     return isEncoded ? linear[code] : float(code / 255.0);
 }
 
-/// What each texel of a smaller side covers of the larger one: at most the first, all between, and the last.
+/// The texels of a larger level that one texel of the smaller level covers; the first and the last one partly.
 struct Span {
     int first, last;
-    double firstShare, lastShare; ///< of a texel
+    double firstShare, lastShare; ///< covered fractions
 };
 
 Span spanOf(int index, int size, int sizeBefore) {
-    // In units of 1/size of a texel, so that all is exact.
+    // In integer units of 1/size of a texel, so that all is exact.
     const std::int64_t begin = std::int64_t(index) * sizeBefore, end = std::int64_t(index + 1) * sizeBefore;
     const int first = int(begin / size), last = int((end - 1) / size);
     return {first, last, double(std::int64_t(first + 1) * size - begin) / size,
             double(end - std::int64_t(last) * size) / size};
 }
 
-/// The mean of span texels, `texel` giving them by index; equal texels keep every bit.
+/// The weighted mean of a span's texels; `texel` returns them by index. The mean of equal texels is exact.
 template <class Texel>
 glm::dvec4 meanOver(const Span& span, const Texel& texel) {
     if (span.first == span.last) return texel(span.first);
@@ -77,7 +77,7 @@ glm::dvec4 meanOver(const Span& span, const Texel& texel) {
     return first + beyond / (span.firstShare + span.lastShare + double(span.last - span.first - 1));
 }
 
-/// The level below one of this size, `texel` giving its texels by column and row.
+/// The next smaller level; `texel` returns texels of the larger one by column and row.
 template <class Texel>
 Level halved(int width, int height, const Texel& texel) {
     Level next{std::max(width / 2, 1), std::max(height / 2, 1), {}};
@@ -95,7 +95,7 @@ Level halved(int width, int height, const Texel& texel) {
     return next;
 }
 
-/// Level 1. Decodes as it goes: a copy of level 0 in linear light would take four times the picture.
+/// Level 1. Decodes on the fly: a copy of level 0 in linear light would take four times the image's memory.
 Level firstLevel(const scenes::Image& image, bool srgb) {
     return halved(image.width, image.height, [&](int column, int row) {
         const std::size_t first = 4 * (std::size_t(row) * std::size_t(image.width) + std::size_t(column));

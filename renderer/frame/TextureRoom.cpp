@@ -13,7 +13,7 @@ using scenes::TextureSlot;
 
 namespace {
 
-/// Whether programs with the features sample the slot: some do so only for what the texture is of.
+/// Whether programs with the features sample the slot; some slots also require the feature that they modulate.
 bool isSampled(const FeatureSet& features, TextureSlot slot) {
     if (!features[slot]) return false;
     switch (slot) {
@@ -39,7 +39,7 @@ bool isSampled(const FeatureSet& features, TextureSlot slot) {
     }
 }
 
-/// Beside those of materials.
+/// Number of sampled textures other than those of materials.
 std::size_t sampledBeside(const FrameSpec& spec) {
     const FeatureSet& features = spec.features;
     std::size_t sampled = 2; // TEXTURE_UNIT_LIGHTS and _LIGHT_ENTRIES
@@ -57,7 +57,7 @@ std::size_t sampledBeside(const FrameSpec& spec) {
     return sampled;
 }
 
-// Shaders count on these slots where a flag of the material says that it has a texture there. They always have room.
+// Slots up to this one are never dropped: shaders rely on them if a flag of the material is set. They always fit.
 constexpr std::size_t kMostBeside = 8;
 constexpr TextureSlot kLastKept = TextureSlot::Anisotropy;
 static_assert(std::size_t(kLastKept) + 1 + kMostBeside <= TEXTURE_UNITS_GUARANTEED);
@@ -79,7 +79,7 @@ void leaveOutTextures(FrameSpec& spec, const FeatureSet& used) {
         }
         for (auto at = scenes::kTextureSlots.rbegin(); at != scenes::kTextureSlots.rend(); ++at) {
             const scenes::TextureSlotInfo& info = *at;
-            // Without a normal map other features would have to go too.
+            // Without normal maps other features would have to be dropped too.
             const TextureSlot lastKept = read ? kLastKept : TextureSlot::Normal;
             if (info.slot <= lastKept || sampledTextures(spec) <= std::size_t(spec.settings.texturesAStage)) break;
             if (!isSampled(spec.features, info.slot) || isSampled(used, info.slot) != read) continue;

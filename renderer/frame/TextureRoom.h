@@ -4,19 +4,19 @@
 
 #include "renderer/frame/FrameSpec.h"
 
-/// How many textures programs that draw surfaces sample, and which textures of materials a frame goes without where a
-/// stage of the driver may not sample as many (FrameSettings::texturesAStage).
+/// Texture units of programs that draw surfaces: their number, and the material textures that a frame drops if a stage
+/// of the driver has too few (FrameSettings::texturesAStage).
 namespace tessera::frame {
 
-/// What a program of the frame that draws and lights surfaces samples at most.
+/// Most textures that a program of the frame samples to draw and light surfaces.
 std::size_t sampledTextures(const FrameSpec& spec);
 
-/// Leaves slots out of the spec's features until its programs fit a stage, the last first: those that no material
-/// `used` stands for reads, then what bodies of glass show of surfaces, then other slots, which become
+/// Drops texture slots from the spec's features, lowest priority first, until its programs fit a stage: slots that
+/// materials with the features `used` do not read, then the surfaces behind glass, then other slots, which become
 /// FrameSpec::withoutTextures.
 void leaveOutTextures(FrameSpec& spec, const FeatureSet& used);
 
-/// Which textures of materials the frame lacks, and why; empty: none.
+/// Warning: material textures that the frame lacks, and why; empty if none.
 std::string missingTextures(const FrameSpec& spec);
 
 } // namespace tessera::frame

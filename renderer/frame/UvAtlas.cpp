@@ -14,27 +14,27 @@ namespace tessera::frame {
 
 namespace {
 
-/// A texel may lie in two triangles along their common edge; more of them are an overlap.
+/// Tolerated fraction of overlapping texels: a texel may lie in two triangles along their common edge.
 constexpr double kMostOverlapping = 0.01;
-constexpr float kMostOutside = 1e-4f; ///< of texture coordinates: rounding
+constexpr float kMostOutside = 1e-4f; ///< rounding tolerance of texture coordinates
 constexpr int kOverlapSideTexels = 1024;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) {
     return a.x * b.y - a.y * b.x;
 }
 
-/// A triangle in texels and in the world.
+/// A triangle in texels and in world space.
 struct Triangle {
     std::array<glm::dvec2, 3> places;
     std::array<glm::dvec3, 3> cornersWS;
-    glm::dvec3 alongU{0.0}, alongV{0.0}; ///< metres for a texel
-    bool hasArea = false;                ///< in both
+    glm::dvec3 alongU{0.0}, alongV{0.0}; ///< metres per texel
+    bool hasArea = false;                ///< in texels and in world space
 
     glm::dvec3 pointWS(const glm::dvec2& place) const {
         const glm::dvec2 offset = place - places[0];
         return cornersWS[0] + offset.x * alongU + offset.y * alongV;
     }
-    /// In texels, of a point in its plane.
+    /// Position in texels of a point in its plane.
     glm::dvec2 placeOf(const glm::dvec3& inPlaneWS) const {
         const glm::dvec3 offset = inPlaneWS - cornersWS[0];
         const double uu = glm::dot(alongU, alongU), uv = glm::dot(alongU, alongV), vv = glm::dot(alongV, alongV);
@@ -78,14 +78,14 @@ struct Edge {
     int edge;
 };
 
-/// A vertex by its place on the surface: vertices that texture coordinates keep apart are one there.
+/// Identifies a vertex by its position, so that vertices split at texture seams are the same.
 using PlaceOS = std::tuple<float, float, float>;
 PlaceOS placeOSOf(const glm::vec3& positionOS) {
     return {positionOS.x, positionOS.y, positionOS.z};
 }
 
-/// The other triangle of each edge, three a triangle, and whether both have the same texture coordinates there. Edges
-/// of more or fewer than two triangles have none.
+/// The other triangle at an edge, and whether both have the same texture coordinates there. -1 for edges of more or
+/// fewer than two triangles.
 struct Neighbour {
     std::int32_t triangle = -1;
     int edge = 0;
@@ -125,7 +125,7 @@ std::vector<Neighbour> neighboursOf(const scenes::Mesh& mesh, const std::vector<
     return neighbours;
 }
 
-/// The chart of each triangle, from 1 on; 0 of those without area. Returns how many there are.
+/// Numbers the charts of the triangles, from 1; 0 for triangles without area. Returns the number of charts.
 std::size_t numberCharts(const std::vector<Triangle>& triangles, const std::vector<Neighbour>& neighbours,
                          std::vector<std::int32_t>& charts) {
     charts.assign(triangles.size(), 0);
@@ -150,7 +150,7 @@ std::size_t numberCharts(const std::vector<Triangle>& triangles, const std::vect
     return std::size_t(count);
 }
 
-/// Calls `visit(u, v)` for texels whose middles lie in a box, within the atlas.
+/// Calls `visit(u, v)` for texels whose centres lie in a box, within the atlas.
 template <typename Visit>
 void visitTexels(const UvAtlas& atlas, const glm::dvec2& low, const glm::dvec2& high, Visit visit) {
     const auto bound = [&](double place) { return int(std::clamp(place, 0.0, double(atlas.sideTexels))); };
@@ -158,7 +158,7 @@ void visitTexels(const UvAtlas& atlas, const glm::dvec2& low, const glm::dvec2& 
         for (int u = bound(std::ceil(low.x - 0.5)); u < bound(std::floor(high.x - 0.5) + 1.0); ++u) visit(u, v);
 }
 
-/// Whether a place lies in a triangle, its rim included.
+/// Whether a position lies in a triangle, its edges included.
 bool isWithin(const Triangle& triangle, const glm::dvec2& place) {
     double least = std::numeric_limits<double>::infinity(), most = -least;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -170,7 +170,7 @@ bool isWithin(const Triangle& triangle, const glm::dvec2& place) {
     return least >= 0.0 || most <= 0.0;
 }
 
-/// Whether it lies in there by more than rounding moves it.
+/// Whether the position lies inside by more than its rounding error.
 bool isDeepWithin(const Triangle& triangle, const glm::dvec2& place) {
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec2 along = triangle.places[(i + 1) % 3] - triangle.places[i];
@@ -179,7 +179,7 @@ bool isDeepWithin(const Triangle& triangle, const glm::dvec2& place) {
     return true;
 }
 
-/// Where the surface goes on past an edge: the place is unfolded into the other triangle, or mirrored at the edge.
+/// Where the surface continues past an edge: unfolds the position into the other triangle, or mirrors it at the edge.
 glm::dvec2 continuedAt(const glm::dvec2& place, const Triangle& own, int edge, const Triangle* other, int otherEdge) {
     const auto corner = [](const Triangle& triangle, int i) { return triangle.cornersWS[std::size_t(i % 3)]; };
     const glm::dvec3 from = corner(own, edge), along = glm::normalize(corner(own, edge + 1) - from);
@@ -236,7 +236,7 @@ UvAtlas makeUvAtlas(const scenes::Mesh& mesh, const glm::dmat4& worldFromObject,
     const auto shared = std::ranges::count(isShared, true);
     atlas.overlapping = covered > 0 ? double(shared) / double(covered) : 0.0;
 
-    // Past the rims of charts, by the nearest edge; what stands in where the surface is not known there.
+    // Outside charts, by the nearest edge. The fallbacks serve where the continued surface is not covered.
     struct Instead {
         glm::dvec2 mirrored{0.0}, nearest{0.0};
     };
@@ -272,7 +272,7 @@ UvAtlas makeUvAtlas(const scenes::Mesh& mesh, const glm::dmat4& worldFromObject,
                         });
         }
     }
-    // Near corners of charts an edge's other triangle may end before.
+    // Near corners of charts, the other triangle may not extend to the continued position.
     const auto isKnown = [&](const glm::dvec2& place) {
         const glm::dvec2 low = glm::floor(place - 0.5);
         for (int i = 0; i < 4; ++i) {

@@ -40,9 +40,9 @@ bool isLifted(const glm::dvec3& facetNormal, const std::array<glm::dvec3, 3>& co
     });
 }
 
-/// By vertex, the normal of the triangles that end with it, LIFTED_FACET long where their points are lifted, else unit:
-/// where those of two differ, the second gets a copy of the vertex. A triangle without an area shows nothing and shares
-/// any.
+/// By vertex, the normal of the triangles whose last corner it is, of length LIFTED_FACET if their points are lifted,
+/// else unit. If the normals of two triangles differ, the second gets a copy of the vertex. Triangles without area are
+/// invisible and share any vertex.
 std::vector<glm::vec3> splitByFacets(const scenes::Mesh& mesh, TangentMesh& split) {
     const std::size_t own = mesh.positionsOS.size();
     const auto ownVertex = [&](std::uint32_t vertex) { return vertex < own ? vertex : split.copiedOf[vertex - own]; };
@@ -97,13 +97,13 @@ VertexStreams::Range appendMesh(VertexStreams& streams, const scenes::Mesh& mesh
     return range;
 }
 
-/// A mesh as one or more of its materials need it.
+/// A mesh with the tangents that some of its materials need.
 struct Version {
     std::optional<TangentBasis> basis;
     std::set<int> materials;
 };
 
-/// Those of each mesh that is drawn, in document order. Materials that need no tangents are content with any.
+/// The versions of each drawn mesh, in document order. Materials without tangents share any version.
 std::vector<std::vector<Version>> versionsOf(const scenes::Scene& scene) {
     std::vector<std::vector<Version>> meshes(scene.meshes.size());
     for (const scenes::Node& node : scene.nodes) {
@@ -122,10 +122,10 @@ std::vector<std::vector<Version>> versionsOf(const scenes::Scene& scene) {
     return meshes;
 }
 
-/// Vertices that meshes may take up beyond their own for the tangents of further materials: about 2 GiB of them.
+/// Most vertices copied for materials that need different tangents: about 2 GiB.
 constexpr std::size_t kMostCopiedVertices = std::size_t(1) << 25;
 
-/// Derived by MikkTSpace, each corner of a triangle may need a vertex of its own; with shadows the last one may.
+/// Upper bound: MikkTSpace may give each corner of a triangle its own vertex, shadows the last corner.
 std::size_t mostVertices(const scenes::Mesh& mesh, const Version& version, const FeatureSet& features) {
     const bool splits =
         mesh.tangentsOS.empty() && version.basis && version.basis->method == scenes::TangentMethod::MikkTSpace;

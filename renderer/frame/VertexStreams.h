@@ -12,10 +12,9 @@
 
 namespace tessera::frame {
 
-/// All meshes of a scene that are drawn, end to end, one array a vertex attribute. Streams that no feature needs are
-/// empty; where a mesh lacks an attribute that others have, it gets the neutral value (white, zero coordinates,
-/// computed tangents). A mesh whose materials want different tangents is there once for each. Triangles and their
-/// corners stay in the mesh's order.
+/// All drawn meshes of a scene, concatenated, one array per vertex attribute. Streams that no feature needs are empty;
+/// attributes that a mesh lacks but others have get neutral values (white, zero coordinates, computed tangents). A mesh
+/// whose materials need different tangents is stored once for each. Triangles and their corners keep the mesh's order.
 struct VertexStreams {
     struct Range {
         std::uint32_t firstIndex = 0;
@@ -30,14 +29,14 @@ struct VertexStreams {
     std::vector<glm::vec4> tangentsOS;
     std::vector<glm::vec2> texCoords[2];
     std::vector<glm::vec4> colors;
-    /// With shadows: of the triangles that end with a vertex, out of the front of its mesh; LIFTED_FACET long where
-    /// softened terminators lift their points, else unit; of those without an area any. Where triangles of one end have
-    /// different ones, each that differs from the first has a copy of it.
+    /// With shadows: the front-side normal of the triangles whose last corner is the vertex, of length LIFTED_FACET if
+    /// softened terminators lift their points, else unit; arbitrary for triangles without area. Triangles with the same
+    /// last corner but other normals use copies of the vertex.
     std::vector<glm::vec3> facetNormalsOS;
 };
-/// What the streams are called that such features need, in their order.
+/// Names of the streams that the features need, in order.
 std::vector<std::string> streamNames(const FeatureSet& features);
-/// Throws InputError where that would make very many copies.
+/// Throws InputError if it would copy more than 2^25 vertices for different tangents.
 VertexStreams makeVertexStreams(const scenes::Scene& scene, const FeatureSet& features);
 
 } // namespace tessera::frame

@@ -12,28 +12,28 @@
 namespace tessera::gpu {
 namespace {
 
-/// What a piece should take: an interrupted frame, and the one that answers the input, fit into 100 ms.
+/// Target time of a piece. An interrupted frame and the frame that answers the input then fit into 100 ms.
 constexpr double kPieceMs = 12.0;
-/// Triangles of the first part: llvmpipe transforms and bins as many in about 1 ms.
+/// Triangles of the first part; llvmpipe transforms and bins that many in about 1 ms.
 constexpr std::size_t kFirstTriangles = 8192;
-/// Smaller parts would save nothing: binding and waiting take as long.
+/// Triangles of the smallest part. With fewer, binding and waiting take as long.
 constexpr std::size_t kFewestTriangles = 256;
-/// Parts begin in so many bands, until pixels are seen to be quick.
+/// Initial number of bands per part, until pixels prove fast.
 constexpr int kFirstBands = 4;
-/// Bands begin at multiples of the side of llvmpipe's rasteriser tiles, so that none is binned twice.
+/// Bands start at multiples of llvmpipe's rasteriser tile side, so that no tile is binned twice.
 constexpr int kRowStep = 64;
-/// Where bands are slow all the same, their height and width change in steps of this.
+/// Step of band height and width where bands of kRowStep are still too slow.
 constexpr int kSlowStep = 16;
 
 struct State {
-    std::function<bool()> givesUp; ///< empty: draws are whole; also once it said yes, while the frame is left
+    std::function<bool()> givesUp; ///< empty: draws are not split, also after it returned true while the frame unwinds
     BandPace pace;
     BandedArea area;
     BandProgress progress;
 };
 thread_local State state;
 
-/// Rows of the next band, from what the latest one took.
+/// Rows of the next band, adapted to the time of the latest.
 int nextRows(int rows, double elapsedMs) {
     const double wanted = rows * kPieceMs / std::max(elapsedMs, 0.1);
     // A single slow band, such as one whose shader was compiled first, must not shrink the next ones to nothing.
@@ -41,12 +41,12 @@ int nextRows(int rows, double elapsedMs) {
     return std::max(steps, 1) * kRowStep;
 }
 
-/// As many rows or a few more, and at least one step of them.
+/// Rounds up to a multiple of kRowStep, at least one step.
 int wholeSteps(int rows) {
     return std::max((rows + kRowStep - 1) / kRowStep, 1) * kRowStep;
 }
 
-/// Waits for the issued draws and asks whether to go on; under BandedDrawing.
+/// Waits for the issued draws and throws graph::Interrupted if givesUp() returns true. Only under BandedDrawing.
 void askToGoOn() {
     glFinish();
     if (!state.givesUp()) return;
@@ -54,12 +54,12 @@ void askToGoOn() {
     throw graph::Interrupted();
 }
 
-/// How large bands are; drawing changes it.
+/// Size of bands, adapted while drawing.
 struct Bands {
     int rows = 0;
-    int columns = 0;            ///< of its pieces
-    int usualRows = 0;          ///< where pixels are quick, at least
-    double growsWithinMs = 0.0; ///< below that they grow where twice the slowest piece's time fits into this
+    int columns = 0;            ///< width of a band's pieces
+    int usualRows = 0;          ///< minimum rows once pixels are fast
+    double growsWithinMs = 0.0; ///< bands below usualRows double if twice the slowest piece's time is less
 };
 
 /// BandProgress::share before and after a draw.
@@ -68,8 +68,7 @@ struct Shares {
     double after = 1.0;
 };
 
-/// Draws a piece: `width` by `height` pixels of the area from a column and a row on. Returns what it took in
-/// milliseconds.
+/// Draws `width` by `height` pixels of the area, starting at a column and a row. Returns the time in milliseconds.
 double drawPiece(const std::function<void()>& draw, int column, int row, int width, int height) {
     const BandedArea area = state.area;
     const CpuTimer clock;
@@ -82,8 +81,8 @@ double drawPiece(const std::function<void()>& draw, int column, int row, int wid
     return clock.elapsedMs();
 }
 
-/// Draws all of the area band by band, and asks before each piece but the first of a draw. Returns what the slowest
-/// piece took in milliseconds.
+/// Draws the whole area band by band. Checks for interruption before each piece except the first of a draw. Returns the
+/// time of the slowest piece in milliseconds.
 double drawBands(const std::function<void()>& draw, Bands& bands, const Shares& shares) {
     const BandedArea area = state.area;
     const double longestMs = state.pace.longestMs;
@@ -103,10 +102,10 @@ double drawBands(const std::function<void()>& draw, Bands& bands, const Shares& 
             const double ms = drawPiece(draw, column, row, width, height);
             slowestMs = std::max(slowestMs, ms);
             column += width;
-            // Narrower than the picture only where even the lowest bands are slow.
+            // Pieces narrow only where even the lowest bands are slow.
             if (ms > longestMs && bands.rows == kSlowStep)
                 bands.columns = std::max(bands.columns / 4, std::min(kSlowStep, area.width));
-            else if (2.0 * ms < longestMs && width == bands.columns) // not of one that the edge cut
+            else if (2.0 * ms < longestMs && width == bands.columns) // not a piece cut by the edge
                 bands.columns = std::min(bands.columns * 2, area.width);
         }
         row += height;
@@ -193,7 +192,7 @@ void drawInParts(std::size_t triangles, const std::function<void(std::size_t fir
     const BandedArea area = state.area;
     if (!state.givesUp || area.width == 0) return draw(0, triangles);
     const int whole = wholeSteps(area.height), first = wholeSteps(area.height / kFirstBands);
-    // Where a part takes as long as it should, it is the part that gets smaller: lower bands would repeat its geometry.
+    // Above kPieceMs the part shrinks instead of its bands: lower bands would repeat its geometry.
     Bands bands{state.pace.beginsSlow ? kSlowStep : first, area.width, whole, std::min(kPieceMs, state.pace.longestMs)};
     std::size_t part = kFirstTriangles;
     for (std::size_t done = 0; done < triangles;) {
@@ -201,10 +200,10 @@ void drawInParts(std::size_t triangles, const std::function<void(std::size_t fir
         const auto share = [&](std::size_t number) { return double(number) / double(triangles); };
         const double slowestMs = drawBands([&] { draw(done, count); }, bands, {share(done), share(done + count)});
         done += count;
-        // Bands repeat a part's geometry, so while there are several a part is to be quick enough for them to grow.
+        // Several bands repeat a part's geometry, so the part must be fast enough for its bands to grow.
         const bool isOneBand = bands.rows >= whole && bands.columns == area.width;
         const double aimMs = isOneBand ? kPieceMs : kPieceMs / 3.0;
-        // The next part may cover more pixels than this one, so it grows by steps, and only where bands need not.
+        // The next part may cover more pixels, so parts grow by steps, and only once they are a single band.
         const double factor = std::clamp(aimMs / std::max(slowestMs, 0.1), 0.5, isOneBand ? 2.0 : 1.0);
         part = std::max(std::size_t(double(part) * factor), kFewestTriangles);
     }

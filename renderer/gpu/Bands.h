@@ -3,20 +3,20 @@
 #include <functional>
 #include <memory>
 
-/// Long draws in pieces, so that a frame can be given up in the middle of one: a software rasteriser may need a second
-/// for a full-screen triangle, and an interactive program owes an answer within a tenth of that.
+/// Splits long draws, so that a frame can be interrupted in the middle of one: a software rasteriser may need a second
+/// for a full-screen triangle, and an interactive program must respond within a tenth of that.
 namespace tessera::gpu {
 
 /// How finely draws are divided.
 struct BandPace {
-    bool beginsSlow = false; ///< pixels are known to take long: bands are low from the first on
-    /// A longer piece delays the answer to input too much, even if smaller pieces cost more in total.
+    bool beginsSlow = false; ///< pixels are known to be slow: starts with the lowest bands
+    /// A longer piece delays the response to input too much, even if smaller pieces cost more in total.
     double longestMs = 100.0;
 };
 
-/// While one lives, drawInBands() and drawInParts() draw piece by piece, wait for each, and call `givesUp`; if that
-/// returns true, they throw graph::Interrupted. The pixels of a complete frame do not depend on it. At most one lives
-/// on a thread.
+/// While an instance lives, drawInBands() and drawInParts() draw piece by piece, wait for each, call `givesUp`, and
+/// throw graph::Interrupted if it returns true. The pixels of a complete frame do not depend on it. At most one
+/// instance per thread.
 class BandedDrawing {
 public:
     explicit BandedDrawing(std::function<bool()> givesUp, BandPace pace = {});
@@ -25,29 +25,29 @@ public:
     BandedDrawing& operator=(const BandedDrawing&) = delete;
 };
 
-/// Issues `draw` once, or under BandedDrawing once per band of rows, scissored to the band: of the bound framebuffer,
-/// or of the rectangle that setScissor() restricts draws to. The draw must write pixels only, and each on its own. Each
+/// Issues `draw` once, or under BandedDrawing once per band of rows, scissored to the band. Bands divide the bound
+/// framebuffer, or the rectangle of setScissor(). The draw may only write pixels, each independent of the others. Each
 /// band repeats its geometry.
 void drawInBands(const std::function<void()>& draw);
 
-/// For draws whose geometry takes long: `draw` issues triangles [first, first + count) of all `triangles`, one after
-/// the other. It is called once with all of them, or under BandedDrawing with a part at a time, in their order, so that
-/// none is transformed twice; where pixels take long as well, each part in bands as above.
+/// For draws with slow geometry: `draw` issues triangles [first, first + count) of all `triangles`, in order. It is
+/// called once for all, or under BandedDrawing once per part, so that no triangle is transformed twice. Where pixels
+/// are slow too, each part is drawn in bands as above.
 void drawInParts(std::size_t triangles, const std::function<void(std::size_t first, std::size_t count)>& draw);
 
-/// A pass has ended. Under BandedDrawing: waits for the issued draws and calls `givesUp`.
+/// Ends a pass. Under BandedDrawing, waits for the issued draws and calls `givesUp` as above.
 void endBandedPass();
 
-/// How far the frame is that is drawn under BandedDrawing, for its `givesUp`.
+/// Progress of the frame under BandedDrawing, for its `givesUp`.
 struct BandProgress {
-    std::size_t passes = 0; ///< that have ended
-    double share = 0.0;     ///< of the draw in progress: of its pixels, or of its triangles
+    std::size_t passes = 0; ///< completed
+    double share = 0.0;     ///< completed fraction of the current draw, by pixels or by triangles
 };
 BandProgress bandProgress();
 
-/// While one lives, `givesUp` may draw something else: then targets, viewport, scissor and write masks are those of the
-/// frame in progress again. Programs, vertex arrays, textures, blending and what is enabled are to be put back by
-/// whoever draws.
+/// While an instance lives, `givesUp` may draw something else. The destructor restores framebuffers, viewport, scissor,
+/// sRGB encoding and write masks. The caller restores programs, vertex arrays, textures, blending and other
+/// capabilities.
 class BetweenBands {
 public:
     BetweenBands();
@@ -60,7 +60,7 @@ private:
     std::unique_ptr<Bound> bound_;
 };
 
-/// Pixels that bands divide.
+/// The rectangle of pixels that bands divide.
 struct BandedArea {
     int x = 0;
     int y = 0;
@@ -68,7 +68,7 @@ struct BandedArea {
     int height = 0;
     bool isScissored = false; ///< not the whole framebuffer
 };
-/// Called with every binding of a framebuffer and every scissor.
+/// Called whenever a framebuffer is bound or a scissor is set.
 void setBandedArea(const BandedArea& area);
 
 } // namespace tessera::gpu

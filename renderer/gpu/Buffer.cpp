@@ -12,8 +12,8 @@
 namespace tessera::gpu {
 namespace {
 
-constexpr std::size_t kLeastBytes = 16; // GL has no buffers of no bytes
-// More than any machine has. Asked for 64 TiB, NVIDIA 580 does not answer for a minute.
+constexpr std::size_t kLeastBytes = 16; // GL has no empty buffers
+// More than any machine has. A request for 64 TiB blocks NVIDIA 580 for a minute.
 constexpr std::size_t kMostBytes = std::size_t(1) << 40;
 
 GLbitfield storageFlags(BufferUse use) {
@@ -33,7 +33,7 @@ GLbitfield storageFlags(BufferUse use) {
 Buffer::Buffer(std::size_t bytes, std::string label)
     : label_(std::move(label)), bytes_(bytes == 0 ? kLeastBytes : bytes) {}
 
-// What is thrown from here on finds a made object, whose destructor deletes the buffer.
+// The delegated constructor has completed, so if the body throws, the destructor deletes the buffer.
 Buffer::Buffer(std::string label, std::size_t bytes, BufferUse use) : Buffer(bytes, std::move(label)) {
     make(nullptr, use);
     clear();
@@ -61,7 +61,7 @@ Buffer::Buffer(Buffer&&) noexcept = default;
 Buffer& Buffer::operator=(Buffer&&) noexcept = default;
 
 Buffer::~Buffer() {
-    texels_.clear(); // before what they show
+    texels_.clear(); // before the buffer that they view
     if (const std::uint32_t id = id_.value()) glDeleteBuffers(1, &id);
 }
 
@@ -79,7 +79,7 @@ void Buffer::uploadBytes(std::span<const std::byte> source, std::size_t offsetBy
 
 void Buffer::clear() const {
     const std::uint8_t zero = 0;
-    glClearNamedBufferData(id_.value(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &zero); // of any number of bytes
+    glClearNamedBufferData(id_.value(), GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, &zero); // any size
     // NVIDIA 580 lets a glNamedBufferSubData of more than 64 KiB overtake the clear, which then erases what it wrote.
     glFinish();
 }

@@ -19,12 +19,12 @@ class TexelBuffer;
 /// Static: written seldom. Dynamic: written every frame. Readback: lives where the CPU reads it cheaply.
 enum class BufferUse { Static, Dynamic, Readback };
 
-/// GPU memory of a fixed size, zeroed when made. No byte at all is rounded up to 16, so empty lists can be bound.
+/// A GPU buffer of fixed size, zero-initialised. Size 0 is rounded up to 16 bytes, so that empty lists can be bound.
 class Buffer {
 public:
     /// Throws std::runtime_error naming label and size when memory runs out.
     Buffer(std::string label, std::size_t bytes, BufferUse use = BufferUse::Static);
-    /// Made and filled in one go: a Static buffer that holds a copy of `values`.
+    /// Makes a buffer that holds a copy of `values`.
     template <std::ranges::contiguous_range Range>
     static Buffer of(std::string label, const Range& values, BufferUse use = BufferUse::Static) {
         static_assert(std::is_trivially_copyable_v<std::ranges::range_value_t<Range>>);
@@ -47,7 +47,7 @@ public:
     }
     void uploadBytes(std::span<const std::byte> source, std::size_t offsetBytes = 0) const;
 
-    /// Makes all of it 0.
+    /// Fills the buffer with 0.
     void clear() const;
 
     /// Reads `target.size()` bytes from `offsetBytes`; waits for the GPU. Storage writes need a TransferOrUpdate
@@ -61,8 +61,8 @@ public:
         return values;
     }
 
-    /// The buffer as texels of a format, made on first use: as many whole texels as the driver can read.
-    /// Throws as TexelBuffer.
+    /// The buffer texture of a format, made on first use. Covers as many whole texels as the driver can read. Throws as
+    /// TexelBuffer.
     const TexelBuffer& texels(graph::Format format) const;
 
     std::size_t bytes() const { return bytes_; }
@@ -70,10 +70,10 @@ public:
     const std::string& label() const { return label_; }
 
 private:
-    /// No GL object yet.
+    /// Creates no GL object.
     Buffer(std::size_t bytes, std::string label);
     Buffer(std::string label, std::span<const std::byte> contents, BufferUse use);
-    /// Makes the buffer; of undefined contents where `contents` is null.
+    /// Creates the GL buffer. Contents are undefined if `contents` is null.
     void make(const std::byte* contents, BufferUse use);
 
     std::string label_;

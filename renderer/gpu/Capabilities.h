@@ -7,27 +7,27 @@
 
 namespace tessera::gpu {
 
-/// What the context's driver says of itself, read once when the context is made.
+/// Properties of the context's driver, read once at creation.
 struct Capabilities {
     std::string vendor;
     std::string renderer;
     std::string version;     ///< GL_VERSION
     std::string glslVersion; ///< GL_SHADING_LANGUAGE_VERSION
     std::string contextWay;  ///< how the context was made, e.g. "EGL surfaceless", "EGL device 0", "GLFW window"
-    bool isSoftware = false; ///< a CPU rasteriser (llvmpipe, softpipe, swrast): GPU timer queries mean nothing there
-    /// By how much of a pixel the rasteriser moves vertices before it finds depths; 0: depths are those of the vertices
-    /// as they are, to rounding.
+    bool isSoftware = false; ///< CPU rasteriser (llvmpipe, softpipe, swrast), where GPU timer queries are meaningless
+    /// Largest distance in pixels by which the rasteriser snaps vertices before it interpolates depth; 0: depths are
+    /// those of unsnapped vertices, up to rounding.
     float snapPixels = 0.0f;
     std::size_t maxTextureBufferTexels = 0;
     std::size_t maxUniformBlockBytes = 0;
     std::size_t maxStorageBlockBytes = 0;
-    bool indexesUniformBlocks = true; ///< false where an index that varies overruns the driver's memory
-    int maxTextureSize = 0;           ///< texels, of a 2D texture's side
+    bool indexesUniformBlocks = true; ///< false where dynamic indexing overruns the driver's memory
+    int maxTextureSize = 0;           ///< side of a 2D texture, texels
     int maxSamples = 0;               ///< of colour textures
-    int texturesAStage = 16;          ///< that a fragment shader may sample, at least 16
-    /// Where the samples of a pixel lie, in shares of it from its lower left corner: a row for each number of them that
-    /// textures of RGBA32F, R32F and D32F can all have, ascending from 1. A driver gives the next larger of its own
-    /// numbers for one that it lacks.
+    int texturesAStage = 16;          ///< texture units of a fragment shader, at least 16
+    /// Sample positions in a pixel, as fractions from its lower left corner: a row for each sample count that RGBA32F,
+    /// R32F and D32F textures all support, ascending from 1. Drivers replace an unsupported count by their next larger
+    /// one.
     std::vector<std::vector<glm::vec2>> samplePlaces{{glm::vec2(0.5f)}};
     float maxAnisotropy = 1.0f;
     bool parallelShaderCompile = false; ///< KHR_parallel_shader_compile

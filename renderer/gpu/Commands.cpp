@@ -48,7 +48,7 @@ void setBlend(Blend blend) {
     switch (blend) {
     case Blend::None:
     case Blend::Max:
-        // Takes no factors. Those of a second output would keep Mesa from drawing into several targets all the same.
+        // Max ignores factors, but stale factors of a second output would keep Mesa from drawing into several targets.
         glBlendFunc(GL_ONE, GL_ZERO);
         break;
     case Blend::Additive:
@@ -69,7 +69,7 @@ void setBlend(Blend blend) {
     }
 }
 
-/// Lets a clear write whatever the pipeline state's masks say, and puts them back: GL applies them to clears too.
+/// Enables all write masks for a clear and restores them: GL applies masks to clears too.
 class OpenWriteMasks {
 public:
     OpenWriteMasks() {

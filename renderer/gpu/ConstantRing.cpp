@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kHalfBytes = std::size_t(1) << 18;
 
-/// What GL guarantees to accept as offset of a uniform range (the largest GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT allowed).
+/// Alignment of uniform range offsets that every GL accepts (the largest GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT allowed).
 constexpr std::size_t kAlignment = 256;
 
 } // namespace

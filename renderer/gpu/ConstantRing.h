@@ -8,8 +8,8 @@
 
 namespace tessera::gpu {
 
-/// Uniform blocks that change from draw to draw: each is copied behind the one before, in memory that the GPU reads
-/// while the CPU writes on. Half of it is written again only when the GPU has read it.
+/// A ring buffer for uniform blocks that change per draw, in persistently mapped memory. A half is reused only after
+/// the GPU has read it.
 class ConstantRing {
 public:
     ConstantRing();
@@ -17,10 +17,10 @@ public:
     ConstantRing(const ConstantRing&) = delete;
     ConstantRing& operator=(const ConstantRing&) = delete;
 
-    /// Binds a copy of the bytes, at most kMostBytes, as the uniform block at a slot. Throws std::logic_error for more.
+    /// Binds a copy of 1 to kMostBytes bytes as the uniform block at a slot. Throws std::logic_error for other sizes.
     void bind(std::uint32_t slot, std::span<const std::byte> bytes);
 
-    /// What OpenGL 4.5 guarantees that a uniform block may hold.
+    /// Uniform block size that OpenGL 4.5 guarantees.
     static constexpr std::size_t kMostBytes = 16384;
 
 private:
@@ -29,8 +29,8 @@ private:
     Id buffer_;
     std::byte* memory_ = nullptr;
     std::size_t half_ = 0;
-    std::size_t used_ = 0;          ///< bytes of that half
-    std::array<void*, 2> fences_{}; ///< of each half, once it is left; GLsync
+    std::size_t used_ = 0;          ///< bytes of the current half
+    std::array<void*, 2> fences_{}; ///< GLsync of each half, set when the ring leaves it
 };
 
 } // namespace tessera::gpu

@@ -42,7 +42,7 @@ bool hasExtension(std::string_view wanted) {
     return false;
 }
 
-/// Samples of multisampled textures of this format, descending as GL lists them.
+/// Sample counts of multisampled textures of this format, descending as GL lists them.
 std::vector<int> samplesOf(GLenum internalFormat) {
     GLint count = 0;
     glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, internalFormat, GL_NUM_SAMPLE_COUNTS, 1, &count);
@@ -52,7 +52,7 @@ std::vector<int> samplesOf(GLenum internalFormat) {
     return samples;
 }
 
-/// Where the samples of a pixel lie. GL tells them of the bound framebuffer only.
+/// Sample positions in a pixel. GL reports them for the bound framebuffer only.
 std::vector<glm::vec2> placesOf(int samples) {
     std::uint32_t texture = 0, framebuffer = 0;
     glCreateTextures(GL_TEXTURE_2D_MULTISAMPLE, 1, &texture);
@@ -92,7 +92,7 @@ bool isSoftwareRenderer(const std::string& name) {
 
 void GLAD_API_PTR onDebugMessage(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
                                  const GLchar* message, const void* log) {
-    // What the shader compiler says comes back in the program's own log, with ShaderError.
+    // ShaderError reports compiler messages, from the program's log.
     if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
     const std::string_view said =
         length < 0 ? std::string_view(message) : std::string_view(message, std::size_t(length));
@@ -107,10 +107,10 @@ Capabilities readCapabilities(std::string contextWay) {
     capabilities.glslVersion = text(GL_SHADING_LANGUAGE_VERSION);
     capabilities.contextWay = std::move(contextWay);
     capabilities.isSoftware = isSoftwareRenderer(capabilities.renderer);
-    // Mesa's rasterisers snap vertices to find which pixels are covered, not for their depths.
+    // Mesa's rasterisers snap vertices for coverage, not for depth.
     if (!capabilities.isSoftware)
         capabilities.snapPixels = std::sqrt(0.5f) * std::exp2(-float(integer(GL_SUBPIXEL_BITS)));
-    // Seen with Mesa 22.3's zink over lavapipe.
+    // Observed with Mesa 22.3's zink over lavapipe.
     capabilities.indexesUniformBlocks = !(capabilities.isSoftware && capabilities.renderer.starts_with("zink"));
     capabilities.maxTextureBufferTexels = std::size_t(integer(GL_MAX_TEXTURE_BUFFER_SIZE));
     capabilities.maxUniformBlockBytes = std::size_t(integer(GL_MAX_UNIFORM_BLOCK_SIZE));
@@ -139,7 +139,7 @@ std::unique_ptr<Context> Context::create(const ContextOptions& options) {
     releaseCurrent();
     const bool egl = options.kind != ContextKind::Window;
     const bool window = options.kind != ContextKind::Egl;
-    // A visible picture needs the window; EGL is then the fallback, so that a program still runs without a display.
+    // Visible output needs the window; EGL is then the fallback, so that a program still runs without a display.
     if (window && options.visible) context = createWindowContext(options, answers);
     if (!context && egl) context = createEglContext(options, answers);
     if (!context && window && !options.visible) context = createWindowContext(options, answers);
@@ -165,7 +165,7 @@ Context::~Context() {
 
 void Context::makeCurrent() {
     if (currentContext == this) return;
-    // X servers refuse a GLX context on a thread that still has one of EGL.
+    // X servers refuse a GLX context on a thread with a current EGL context.
     releaseCurrent();
     makeCurrentImpl();
     // Entry points may differ between drivers, and glad keeps one set.

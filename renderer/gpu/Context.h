@@ -11,28 +11,28 @@ namespace tessera::gpu {
 
 class DebugLog;
 struct LinkedProgram;
-/// By name and sources.
+/// Keyed by name and sources.
 using KeptPrograms = std::map<std::string, std::shared_ptr<const LinkedProgram>>;
 
-/// Auto: EGL first, then a hidden window; the other way round when a visible window is asked for.
+/// Auto: EGL first, then a hidden window; the reverse if a visible window is requested.
 enum class ContextKind { Auto, Window, Egl };
 
 struct ContextOptions {
     ContextKind kind = ContextKind::Auto;
     bool debug = true;    ///< a debug context: messages of high and medium severity become exceptions (Debug.h)
-    bool visible = false; ///< a window on the screen; a headless context draws into framebuffers of its own only
+    bool visible = false; ///< shows the window; headless contexts draw into framebuffer objects only
     int width = 64;       ///< of the window, screen coordinates
     int height = 64;
     std::string title = "Tessera";
 };
 
-/// An OpenGL 4.5 core context with the conventions of the house set once: zero-to-one clip space with a lower-left
-/// origin, sRGB encoding of sRGB targets, no dithering, byte-aligned pixel rows. Every other object of renderer/gpu
-/// belongs to the context that was current when it was made and must die before it, while it is current.
+/// An OpenGL 4.5 core context with the engine's conventions set: zero-to-one clip space with a lower-left origin, sRGB
+/// encoding of sRGB targets, no dithering, byte-aligned pixel rows. Every other object of renderer/gpu belongs to the
+/// context that was current at its creation and must be destroyed before it, while it is current.
 class Context {
 public:
-    /// Makes a context and makes it current instead of the thread's present one. Throws std::runtime_error when none
-    /// can be had; the text says which ways were tried, what each answered and what to install.
+    /// Creates a context and makes it current on the thread. Throws std::runtime_error if that fails; the text lists
+    /// every attempt with its error, and what to install.
     static std::unique_ptr<Context> create(const ContextOptions& options = {});
     virtual ~Context();
     Context(const Context&) = delete;
@@ -45,12 +45,12 @@ public:
     /// The calling thread's context, or null.
     static Context* current();
 
-    /// From now on programs of one name and the very same sources are compiled once, whoever asks for them, and kept:
-    /// for tests, whose renderers come and go. All can share one, since programs hold no uniforms of their own.
+    /// Caches linked programs by name and sources from now on; for tests, which create many renderers. Renderers can
+    /// share them, since programs hold no uniform values.
     void keepPrograms() { keptPrograms_.emplace(); }
-    /// Ends that; to be called while the context is current, and before it dies.
+    /// Drops that cache. Must be called while the context is current, before its destruction.
     void forgetPrograms() { keptPrograms_.reset(); }
-    KeptPrograms* keptPrograms() { return keptPrograms_ ? &*keptPrograms_ : nullptr; } ///< null: keeps none
+    KeptPrograms* keptPrograms() { return keptPrograms_ ? &*keptPrograms_ : nullptr; } ///< null: no cache
 
     /// Shows the window's back buffer; headless contexts do nothing.
     virtual void swapBuffers() {}
@@ -64,8 +64,7 @@ public:
 protected:
     using LoadFunction = void (*(*)(const char* name))();
     Context(std::string contextWay, LoadFunction load);
-    /// To be called by the derived constructor once its context is current: loads OpenGL, reads capabilities, sets
-    /// state.
+    /// Loads OpenGL, reads capabilities and sets state. Derived constructors call it once their context is current.
     void initialise(bool debug);
 
 private:

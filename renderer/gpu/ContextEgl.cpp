@@ -53,7 +53,7 @@ bool listed(const char* extensions, std::string_view wanted) {
     return false;
 }
 
-/// An initialised display. eglTerminate ends it for everyone, so displays that contexts share are counted.
+/// An initialised display, reference-counted, since eglTerminate ends it for all contexts that share it.
 class Display {
 public:
     explicit Display(EGLDisplay display) : display_(display) {
@@ -76,7 +76,7 @@ private:
     EGLDisplay display_;
 };
 
-/// What a driver that refuses OpenGL 4.5 has instead; nothing where it makes no context at all.
+/// The OpenGL version of a driver that lacks 4.5; empty if it creates no context at all.
 std::string offered(EGLDisplay display, EGLConfig config) {
     const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, nullptr);
     if (context == EGL_NO_CONTEXT) return {};
@@ -157,12 +157,12 @@ Function entryPoint(const char* name) {
     return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
-/// Tries displays one after another, and keeps the first software context in case there is no hardware.
+/// Tries displays in order, and keeps the first software context as fallback.
 class Search {
 public:
     Search(const ContextOptions& options, Answers& answers) : options_(options), answers_(answers) {}
 
-    /// Ends the search when the display gives a context of a hardware device.
+    /// Tries a display; a context of a hardware device ends the search.
     void tryDisplay(const std::string& way, EGLDisplay display) {
         if (done()) return;
         Context::releaseCurrent(); // a failing attempt leaves no context current
@@ -200,7 +200,7 @@ void tryDevices(Search& search, PFNEGLGETPLATFORMDISPLAYEXTPROC getPlatformDispl
     queryDevices(count, devices.data(), &count);
     for (EGLint i = 0; i < count; ++i) {
         const EGLDeviceEXT device = devices[std::size_t(i)];
-        // With a software context in hand, another one is of no use.
+        // A second software context is of no use.
         if (search.hasSoftware() && listed(queryString(device, EGL_EXTENSIONS), "EGL_MESA_device_software")) continue;
         search.tryDisplay(fmt::format("EGL device {}", i),
                           getPlatformDisplay(EGL_PLATFORM_DEVICE_EXT, device, nullptr));

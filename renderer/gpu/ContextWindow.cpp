@@ -18,7 +18,7 @@ std::string& glfwError() {
         fmt::format("{} failed, {}", call, glfwError().empty() ? "without a reason" : glfwError().c_str()));
 }
 
-/// GLFW itself, alive as long as a window is.
+/// Keeps GLFW initialised while a window exists.
 class Library {
 public:
     Library() {
@@ -61,8 +61,8 @@ private:
             glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
             glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug);
             glfwWindowHint(GLFW_VISIBLE, options.visible);
-            glfwWindowHint(GLFW_SCALE_TO_MONITOR, options.visible); // sizes mean the same on dense displays
-            glfwWindowHint(GLFW_DEPTH_BITS, 0); // pictures are rendered elsewhere and copied into the window
+            glfwWindowHint(GLFW_SCALE_TO_MONITOR, options.visible); // same apparent size on high-DPI displays
+            glfwWindowHint(GLFW_DEPTH_BITS, 0); // images are rendered offscreen and copied into the window
             glfwWindowHint(GLFW_STENCIL_BITS, 0);
             window = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
             if (!window) fail("glfwCreateWindow");

@@ -14,8 +14,8 @@
 namespace tessera::gpu {
 namespace {
 
-// The least GL_MAX_LABEL_LENGTH and GL_MAX_DEBUG_MESSAGE_LENGTH that OpenGL 4.5 allows (tables 23.65, 23.75), one less
-// for the terminator that counts.
+// The smallest GL_MAX_LABEL_LENGTH and GL_MAX_DEBUG_MESSAGE_LENGTH that OpenGL 4.5 allows (tables 23.65, 23.75), minus
+// one for the terminator, which counts.
 constexpr std::size_t kMaxLabel = 255;
 constexpr std::size_t kMaxGroupName = 1023;
 
@@ -43,7 +43,7 @@ std::string_view errorName(GLenum error) {
 
 std::vector<GLenum> drainErrors() {
     std::vector<GLenum> errors;
-    constexpr std::size_t kMost = 16; // a lost context answers for ever
+    constexpr std::size_t kMost = 16; // a lost context reports errors forever
     for (GLenum error = glGetError(); error != GL_NO_ERROR && errors.size() < kMost; error = glGetError())
         errors.push_back(error);
     return errors;
@@ -54,7 +54,7 @@ std::vector<GLenum> drainErrors() {
         fmt::format("OpenGL failed{}{}: {}", when.empty() ? "" : " ", when, fmt::join(failures, "; ")));
 }
 
-/// What the debug output collected, or without debug output at least the names of the errors.
+/// Failures of the debug output; without debug output, the names of the errors.
 std::vector<std::string> failures(const std::vector<GLenum>& errors) {
     std::vector<std::string> said = log().takeFailures();
     if (said.empty())

@@ -7,18 +7,17 @@
 
 namespace tessera::gpu {
 
-/// What the driver said through KHR_debug since the last check point. The driver's C callback only fills this; an
-/// exception thrown through it would be undefined.
+/// Driver messages of KHR_debug since the last check. The driver's C callback only records them, since an exception
+/// thrown through it would be undefined behaviour.
 class DebugLog {
 public:
-    /// One message, as the driver's callback gives it. Errors, and messages of high or medium severity, are failures;
+    /// Records a message of the driver's callback. Errors, and messages of high or medium severity, are failures;
     /// advice on performance is a warning, since drivers disagree widely on it; the rest is dropped.
     void add(std::uint32_t type, std::uint32_t id, std::uint32_t severity, std::string_view text);
     void pushGroup(std::string_view name) { groups_.emplace_back(name); }
     void popGroup() { groups_.pop_back(); }
 
-    /// Failures so far, each beginning with the debug groups it happened in ("frame / lighting: ..."); empties the
-    /// list.
+    /// Returns and clears the failures, each prefixed with its debug groups ("frame / lighting: ...").
     std::vector<std::string> takeFailures();
     std::vector<std::string> takeWarnings();
 
@@ -29,15 +28,14 @@ private:
     std::vector<std::string> warnings_;
 };
 
-/// The check point: throws std::runtime_error naming pass and message when the driver reported a failure since the last
-/// one. `when` says what was going on ("creating buffer 'lights'"). Also asks glGetError, so contexts without debug
-/// output work.
+/// Throws std::runtime_error naming pass and message if the driver reported a failure since the last check. `when`
+/// names the current operation ("creating buffer 'lights'"). Also polls glGetError, for contexts without debug output.
 void throwIfFailed(std::string_view when = {});
 
-/// As throwIfFailed(), for what allocates `bytes`: GL_OUT_OF_MEMORY becomes a text that names `what` and its size.
+/// As throwIfFailed(), after an allocation of `bytes`: reports GL_OUT_OF_MEMORY by failAllocation().
 void throwIfAllocationFailed(std::string_view what, std::size_t bytes);
 
-/// Throws what throwIfAllocationFailed() throws of GL_OUT_OF_MEMORY.
+/// Throws std::runtime_error naming `what`, its size and a remedy.
 [[noreturn]] void failAllocation(std::string_view what, std::size_t bytes);
 
 /// Names the GL calls of its scope in driver messages and in frame debuggers.
@@ -52,7 +50,7 @@ public:
 /// The kinds of GL object that carry a label.
 enum class LabelKind { Buffer, Texture, Sampler, Shader, Program, VertexArray, Framebuffer, Query };
 
-/// Labels a GL object for messages and frame debuggers; over-long labels are cut to what the driver takes.
+/// Labels a GL object for messages and frame debuggers; truncates labels beyond the driver's limit.
 void labelObject(LabelKind kind, std::uint32_t id, std::string_view label);
 
 } // namespace tessera::gpu

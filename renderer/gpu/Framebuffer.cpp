@@ -92,7 +92,7 @@ Framebuffer::Framebuffer(const Attachments& attachments) {
         throwIfFailed(fmt::format("making a framebuffer ({})", describe(attachments)));
         const GLenum status = glCheckNamedFramebufferStatus(id, GL_DRAW_FRAMEBUFFER);
         if (status != GL_FRAMEBUFFER_COMPLETE) {
-            Context::current()->debugLog().takeFailures(); // some drivers say the same through the debug output
+            Context::current()->debugLog().takeFailures(); // some drivers also report it through the debug output
             fail(attachments, statusName(status));
         }
     } catch (...) {

@@ -12,7 +12,7 @@
 
 namespace tessera::gpu {
 
-/// Where a pass rasterises to. A colour without a texture leaves its output location unwritten.
+/// The render targets of a pass. A colour without a texture leaves its output location unwritten.
 struct Attachments {
     std::vector<graph::Target> colors;
     graph::Target depth = {};
@@ -36,14 +36,14 @@ private:
     int height_ = 0;
 };
 
-/// Framebuffers by attachments, so that passes just ask for the one they need.
+/// A cache of framebuffers, keyed by attachments.
 class FramebufferCache {
 public:
-    /// Made at the first request and kept until one of its textures dies. The reference holds as long as the textures
-    /// do.
+    /// Creates a framebuffer on first use and keeps it until one of its textures is destroyed. The reference is valid
+    /// as long as the textures.
     const Framebuffer& get(const Attachments& attachments);
     const Framebuffer& get(const Texture& color, const Texture* depth = nullptr);
-    /// Drops framebuffers of dead textures, which hold on to the textures' memory. Done by get() when it makes one.
+    /// Drops framebuffers of destroyed textures, which keep their memory alive. get() calls it before it creates one.
     void collect();
     std::size_t size() const { return entries_.size(); }
 

@@ -5,7 +5,7 @@
 
 namespace tessera::gpu {
 
-/// What OpenGL calls a graph::Format, as GLenum values: the one list of them.
+/// The GLenum values of a graph::Format; the table behind glFormat() is the only list of them.
 struct GlFormat {
     graph::Format format;
     std::uint32_t internalFormat; ///< sized

@@ -72,8 +72,8 @@ const Buffer& GraphBackend::buffer(int physical) {
 const Buffer& GraphBackend::growingBuffer(const std::string& name, int number, std::size_t bytes) {
     const auto known = growing_.find({name, number});
     if (known != growing_.end() && known->second.bytes() >= bytes) return known->second;
-    if (known != growing_.end()) growing_.erase(known); // its memory may be needed
-    // A quarter more, so that it seldom grows.
+    if (known != growing_.end()) growing_.erase(known); // frees its memory first
+    // A quarter more, so that it rarely grows.
     return growing_.emplace(std::pair(name, number), Buffer(name, bytes + bytes / 4, BufferUse::Dynamic)).first->second;
 }
 
@@ -161,7 +161,7 @@ void GraphBackend::endPass(std::string_view name) {
 void GraphBackend::endFrame(graph::Barrier barrier) {
     memoryBarrier(barrier);
     throwIfFailed("at the end of the frame");
-    // Only now: the frame may have been declared with what they hold.
+    // Not earlier: the frame may have been declared to read their contents.
     if (countsIdleFrames_)
         for (auto& [name, kept] : persistent_) ++kept.idleFrames;
     const auto dropped =

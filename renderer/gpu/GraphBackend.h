@@ -18,34 +18,33 @@
 
 namespace tessera::gpu {
 
-/// What one pass cost in the latest measured frame.
+/// Cost of a pass in the latest measured frame.
 struct PassTiming {
     std::string name;
     std::optional<double> gpuMs; ///< none: not measured (yet, or not measurable on this renderer without profiling)
-    double cpuMs = 0.0;          ///< time its calls took on the CPU
+    double cpuMs = 0.0;          ///< CPU time of its calls
 };
 
-/// Runs compiled graphs on the current context. Keeps textures and buffers across frames by shape, and opens a debug
-/// group and timers around every pass. What the driver reports during a pass becomes an exception that names the pass.
+/// Runs compiled graphs on the current context. Pools textures and buffers across frames by shape, and opens a debug
+/// group and timers around every pass. Driver failures during a pass become exceptions that name the pass.
 class GraphBackend : public graph::Backend {
 public:
     GraphBackend();
     ~GraphBackend() override;
 
-    /// On: glFinish and the CPU clock on both sides of every pass give gpuMs. It costs the overlap of passes, so
-    /// profiled frames are not the ones to compare; on software rasterisers it is the only figure that is true.
+    /// On: measures gpuMs by glFinish and the CPU clock around every pass. This prevents passes from overlapping, so
+    /// profiled frames are not comparable; on software rasterisers it is the only valid measurement.
     void setProfiling(bool on) { profiling_ = on; }
     bool profiling() const { return profiling_; }
 
-    /// Frames after which an unused allocation or persistent resource is freed. Frames that run in turn keep theirs if
-    /// this is at least their number.
+    /// Frames after which an unused allocation or persistent resource is freed. Alternating frames keep theirs if this
+    /// is at least their number.
     void setMostIdleFrames(int frames) { mostIdleFrames_ = frames; }
     int mostIdleFrames() const { return mostIdleFrames_; }
-    /// Off: frames from now on are not counted as idle ones of what they do not use.
+    /// Off: following frames do not count as idle for resources that they do not use.
     void setCountsIdleFrames(bool on) { countsIdleFrames_ = on; }
 
-    /// On: every allocation of a frame begins as zeros, so that what passes leave unwritten is not an earlier
-    /// frame's.
+    /// On: clears every allocation at the start of a frame, so that unwritten parts do not show an earlier frame.
     void setClearsAllocations(bool on) { clearsAllocations_ = on; }
 
     /// Begins a frame: the contents of the previous frame's allocations may be overwritten from now on.
@@ -56,7 +55,7 @@ public:
     const Texture& persistentTexture(const std::string& name, const graph::TextureDesc& desc) override;
     const Buffer& persistentBuffer(const std::string& name, const graph::BufferDesc& desc) override;
     void setRevision(const std::string& name, std::optional<std::uint64_t> revision) override;
-    /// Whether a frame that ended well has left this revision under the name, in that shape.
+    /// Whether a successful frame has left this revision under the name, in that shape.
     bool holds(const std::string& name, const graph::ResourceDesc& desc, std::uint64_t revision) const;
     /// Keeps the persistent resource of a name, if there is one, as if this frame used it.
     void keep(const std::string& name);
@@ -71,7 +70,7 @@ public:
 
     /// Passes of the latest frame in order of execution. Without profiling gpuMs is some frames old.
     std::vector<PassTiming> passTimings();
-    /// Bytes held, pooled, idle and persistent ones included.
+    /// Bytes held: pooled, idle, growing and persistent resources.
     std::size_t poolBytes() const;
 
 private:
@@ -85,7 +84,7 @@ private:
     struct Persistent {
         graph::ResourceDesc desc;
         Resource resource;
-        std::optional<std::uint64_t> revision; ///< none: no frame has ended well that wrote it
+        std::optional<std::uint64_t> revision; ///< none: no successful frame has written it
         int idleFrames = 0;
     };
     struct PassRecord {
@@ -93,7 +92,7 @@ private:
         std::optional<double> profiledMs;
         double cpuMs = 0.0;
     };
-    using PassKey = std::pair<std::string, int>; ///< a pass may run several times a frame under one name
+    using PassKey = std::pair<std::string, int>; ///< name and run: passes of a frame may share a name
 
     Pooled& take(const graph::ResourceDesc& desc);
     Resource& persistent(const std::string& name, const graph::ResourceDesc& desc);
@@ -107,7 +106,7 @@ private:
     std::map<PassKey, PassRecord> records_;
     std::vector<PassKey> frame_; ///< passes of the frame, in order
     std::map<std::string, int, std::less<>> runsOfName_;
-    int mostIdleFrames_ = 3; ///< two or three techniques that alternate in a viewer keep theirs
+    int mostIdleFrames_ = 3; ///< so that two or three alternating techniques keep theirs
     bool countsIdleFrames_ = true;
     bool clearsAllocations_ = false;
     bool profiling_ = false;

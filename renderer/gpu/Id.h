@@ -4,7 +4,7 @@
 
 namespace tessera::gpu {
 
-/// A GL name owned by one object: moving leaves 0 behind, which every glDelete* ignores.
+/// A GL name with a single owner. A move construction leaves 0, which every glDelete* ignores; a move assignment swaps.
 class Id {
 public:
     Id() = default;

@@ -3,7 +3,7 @@
 
 namespace tessera::gpu {
 
-/// Depth is reversed: 1 at the near plane, 0 infinitely far; "Greater" passes what is nearer than the stored depth.
+/// Depth is reversed: 1 at the near plane, 0 infinitely far; "Greater" passes fragments nearer than the stored depth.
 enum class DepthTest : std::uint8_t { Off, Greater, GreaterEqual, Equal, Less, LessEqual, Always };
 enum class CullFace : std::uint8_t { None, Back, Front };
 enum class Blend : std::uint8_t {
@@ -22,16 +22,16 @@ struct PipelineState {
     bool depthWrite = false; ///< needs a depth test other than Off, as in GL
     CullFace cullFace = CullFace::None;
     bool frontFaceClockwise = false; ///< mirrored nodes: an odd number of negative scales
-    Blend blend = Blend::None;       ///< of every floating-point or normalised colour attachment
+    Blend blend = Blend::None;       ///< applies to every floating-point or normalised colour attachment
     bool colorWrite = true;
     bool alphaToCoverage = false;
-    /// Nothing is clipped at the near and far plane, such as casters of shadows before a light's near plane.
+    /// Disables clipping at the near and far plane, e.g. for shadow casters in front of a light's near plane.
     bool depthClamp = false;
-    bool bothSides = false;        ///< SceneGpu draws single-sided surfaces too without culling
-    bool farSides = false;         ///< SceneGpu draws back faces alone, of what transmits and has a body
-    bool farSidesOfClosed = false; ///< those of closed meshes alone
-    float slopeBias = 0.0f;     ///< times the larger change of depth to the next pixel is added to a triangle's depth
-    float mostSlopeBias = 0.0f; ///< what is added at most, of its sign, where the driver can; 0: any
+    bool bothSides = false;        ///< SceneGpu disables culling of single-sided surfaces too
+    bool farSides = false;         ///< SceneGpu draws only back faces of transmissive surfaces with volume
+    bool farSidesOfClosed = false; ///< farSides of closed meshes only
+    float slopeBias = 0.0f;        ///< factor of the maximum depth slope per pixel, added to a triangle's depth
+    float mostSlopeBias = 0.0f;    ///< limit of the added depth, same sign, if the driver supports it; 0: unlimited
     bool operator==(const PipelineState&) const = default;
 };
 

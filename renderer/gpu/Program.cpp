@@ -59,7 +59,7 @@ std::string logText(const std::vector<ShaderError::StageLog>& stages, const std:
     return text;
 }
 
-/// The place of the fault first: the program's name tells all its defines.
+/// Puts the error location first, since the program's name lists all its defines.
 std::string errorText(const std::string& program, const std::vector<ShaderError::StageLog>& stages,
                       const std::string& link) {
     return logText(stages, link) + fmt::format("It is program '{}'.", program);
@@ -175,8 +175,8 @@ std::size_t Program::uniformBlockBytes(std::uint32_t slot) const {
 }
 
 LinkedProgram::~LinkedProgram() {
-    // A deleted program that is current lives on until another one is; code that restores the program that was current
-    // before, as Dear ImGui does, would name a program that is no more.
+    // GL keeps a deleted current program until another one becomes current. Code that saves and restores the current
+    // program, as Dear ImGui does, would restore a deleted name.
     GLint current = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &current);
     if (std::uint32_t(current) == id.value()) glUseProgram(0);

@@ -21,7 +21,7 @@ struct StageSource {
     std::string source;
 };
 
-/// A program that does not compile or link. The text is the program's name and every stage's log.
+/// Thrown for a program that does not compile or link. The text holds every stage's log and the program's name.
 class ShaderError : public std::runtime_error {
 public:
     struct StageLog {
@@ -32,7 +32,7 @@ public:
     const std::string& program() const { return program_; }
     const std::vector<StageLog>& stageLogs() const { return stageLogs_; } ///< of the stages that failed
     const std::string& linkLog() const { return linkLog_; }               ///< empty when a stage failed
-    std::string log() const; ///< every log, without the program, whose name tells all its defines
+    std::string log() const; ///< all logs, without the program's name, which lists all its defines
 
 private:
     std::string program_;
@@ -51,7 +51,7 @@ struct BlockMember {
     std::size_t topArrayStride = 0; ///< bytes between elements of the outermost array of a storage block; 0: no array
 };
 
-/// What the driver has linked, and asked about it once.
+/// A linked GL program and its queried properties.
 struct LinkedProgram {
     explicit LinkedProgram(Id linked);
     ~LinkedProgram();
@@ -63,8 +63,8 @@ struct LinkedProgram {
 
 class Program {
 public:
-    /// Compiles and links, unless the context keeps one of this name and these sources (Context::keepPrograms()).
-    /// Throws ShaderError with the driver's logs, or where a stage samples more textures than the driver offers one.
+    /// Compiles and links, unless the context caches a program of this name and sources (Context::keepPrograms()).
+    /// Throws ShaderError with the driver's logs, or if a stage samples more textures than the driver offers per stage.
     Program(std::string label, std::span<const StageSource> stages);
     Program(Program&&) noexcept = default;
     Program& operator=(Program&&) noexcept = default;
@@ -76,12 +76,12 @@ public:
     /// Binding slot of a block or of a sampler or image uniform; -1 when it is not active.
     int blockSlot(std::string_view block, BlockKind kind) const;
     int samplerUnit(std::string_view uniform) const;
-    /// Textures and buffer textures that a stage samples; each element of an array is one.
+    /// Number of textures and buffer textures that a stage samples; array elements count individually.
     int sampledTextures(Stage stage) const;
     /// GL_BUFFER_DATA_SIZE of the active uniform block at a slot, bytes; 0 when there is none.
     std::size_t uniformBlockBytes(std::uint32_t slot) const;
 
-    std::uint32_t id() const { return linked_ ? linked_->id.value() : 0; } ///< 0 of one that was moved
+    std::uint32_t id() const { return linked_ ? linked_->id.value() : 0; } ///< 0 if moved from
     const std::string& label() const { return label_; }
 
 private:
@@ -89,11 +89,11 @@ private:
     Program(std::string label, std::shared_ptr<const LinkedProgram> linked)
         : label_(std::move(label)), linked_(std::move(linked)) {}
     std::string label_;
-    std::shared_ptr<const LinkedProgram> linked_; ///< others of the same sources may have it too
+    std::shared_ptr<const LinkedProgram> linked_; ///< shared by programs of the same sources
 };
 
-/// A program on its way: the constructor only issues the work, so that a driver with KHR_parallel_shader_compile builds
-/// many at once; finish() collects.
+/// A program under construction. The constructor only issues the work, so that a driver with
+/// KHR_parallel_shader_compile builds many at once; finish() collects.
 class PendingProgram {
 public:
     PendingProgram(std::string label, std::span<const StageSource> stages);
@@ -109,7 +109,7 @@ private:
         Id id;
     };
     std::string label_;
-    std::string key_; ///< of the context's kept programs; empty where it keeps none
+    std::string key_; ///< key in the context's cache; empty: no cache
     std::shared_ptr<const LinkedProgram> kept_;
     std::vector<PendingShader> shaders_;
     Id id_;

@@ -89,7 +89,7 @@ GLenum referencedBy(Stage stage) {
     return GL_NONE;
 }
 
-/// GL answers -1 for properties that do not apply.
+/// GL returns -1 for properties that do not apply; maps it to 0.
 std::size_t byteProperty(std::uint32_t program, GLenum programInterface, GLuint index, GLenum name) {
     return std::size_t(std::max(property(program, programInterface, index, name), 0));
 }

@@ -15,7 +15,7 @@ public:
 
     void begin();
     void end();
-    /// Of the latest begin() and end(); waits for the GPU.
+    /// Result of the latest begin() and end(); waits for the GPU.
     std::uint64_t samples() const;
 
 private:

@@ -7,13 +7,13 @@
 
 namespace tessera::gpu {
 
-/// Whether a filter takes single texels of a level.
+/// Whether a filter reads single texels of a mip level.
 bool takesNearest(scenes::Filter filter);
 
-/// How a texture is filtered and wrapped, apart from its texels.
+/// A sampler object: filtering and wrapping of a texture.
 class Sampler {
 public:
-    /// `maxAnisotropy` is clamped to what the driver offers; 1 is isotropic.
+    /// `maxAnisotropy` is clamped to the driver's limit; 1 is isotropic.
     Sampler(std::string label, const scenes::Sampler& sampler, float maxAnisotropy = 1.0f);
     /// Bilinear between the texels of level 0, edges clamped.
     static Sampler linearClamp();

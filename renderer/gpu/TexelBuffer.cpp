@@ -12,7 +12,7 @@
 
 namespace tessera::gpu {
 
-// OpenGL 4.5 core, section 8.9: of more texels than a driver can address the first ones are seen.
+// OpenGL 4.5 core, section 8.9: buffer textures are truncated to the driver's texel limit.
 TexelBuffer::TexelBuffer(std::string label, graph::Format format, const Buffer& buffer)
     : texels_(std::min(buffer.bytes() / std::size_t(graph::formatInfo(format).bytes),
                        std::size_t(Context::current()->capabilities().maxTextureBufferTexels))) {

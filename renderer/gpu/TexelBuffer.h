@@ -8,8 +8,8 @@
 
 namespace tessera::gpu {
 
-/// A buffer seen as a one-dimensional texture (samplerBuffer), the fastest way to read lights on most rasterisers. The
-/// buffer must outlive it. Texels beyond the buffer's last whole one, or the driver's limit, cannot be read.
+/// A buffer texture (samplerBuffer), the fastest way to read lights on most rasterisers. The buffer must outlive it.
+/// Only whole texels within the driver's limit are readable.
 class TexelBuffer {
 public:
     /// Throws std::runtime_error when the format is depth, sRGB or signed-normalised, which buffer textures lack.

@@ -24,11 +24,11 @@ public:
     TexelReader(const TexelReader&) = delete;
     TexelReader& operator=(const TexelReader&) = delete;
 
-    /// Lets the GPU copy a texel of each flat texture of one sample, counted from the lower left, once it has written
-    /// them. What was requested before and not taken is forgotten. The texel must lie in each (asserted).
+    /// Queues a GPU copy of one texel, counted from the lower left, of each texture. Textures are flat, with one
+    /// sample. Drops an earlier request that was not taken. The texel must lie in each texture (asserted).
     void request(std::span<const Texture* const> textures, glm::ivec2 texel);
-    bool isBusy() const { return fence_ != nullptr; } ///< something was requested and not taken
-    /// The texels as they are stored, a texture each, in the order of the request; none until the GPU has copied them.
+    bool isBusy() const { return fence_ != nullptr; } ///< a request was not taken yet
+    /// The raw texels, one per texture, in the order of the request; none until the GPU has copied them.
     std::optional<std::vector<Texel>> take();
 
 private:

@@ -158,7 +158,7 @@ void Texture::readLevel(std::uint32_t transferFormat, std::uint32_t transferType
     if (desc_.samples > 1)
         throw std::runtime_error(
             fmt::format("{} cannot be read back; resolve it with blit() first", describe(label_, desc_)));
-    // GL counts in a signed 32-bit size; larger levels are read in bands of rows.
+    // GL takes a signed 32-bit size; larger levels are read in bands of rows.
     const graph::TextureDesc size = graph::mipDesc(desc_, level);
     const std::size_t rowBytes = texels.size() / std::size_t(size.height);
     const int rowsAtOnce = int(std::clamp<std::size_t>((std::size_t(1) << 30) / rowBytes, 1, std::size_t(size.height)));

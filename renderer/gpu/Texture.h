@@ -21,8 +21,8 @@ namespace tessera::gpu {
 /// a Sampler overrides both.
 class Texture {
 public:
-    /// Throws std::runtime_error naming label, size and format when the size or the samples are beyond the driver or
-    /// memory runs out. Contents are undefined until written.
+    /// Throws std::runtime_error naming label, size and format if size or samples exceed the driver's limits or memory
+    /// runs out. Contents are undefined until written.
     Texture(std::string label, const graph::TextureDesc& desc);
     ~Texture();
     Texture(Texture&&) noexcept = default;
@@ -35,12 +35,12 @@ public:
                                                                                   int layer = 0) const {
         upload(level, std::as_bytes(std::span(std::ranges::data(texels), std::ranges::size(texels))), layer);
     }
-    /// Makes all of it 0.
+    /// Fills all levels with 0.
     void clear() const;
     /// Fills levels 1.. from level 0 by the driver's box filter.
     void generateMips() const;
 
-    /// One level's texels of a layer, tightly packed, rows in GL order (lower-left first for rendered pictures); waits
+    /// One level's texels of a layer, tightly packed, rows in GL order (lower-left first for rendered images); waits
     /// for the GPU.
     std::vector<std::byte> downloadBytes(int level = 0, int layer = 0) const;
     /// The same into memory of levelBytes(level).
@@ -53,8 +53,8 @@ public:
         return values;
     }
 
-    /// The same converted to four components of 32 bits a texel, (0, 0, 0, 1) where the format has none: unsigned
-    /// numbers of integer formats, else bits of floats.
+    /// The same as four 32-bit components per texel; missing ones are (0, 0, 0, 1). Integer formats give unsigned
+    /// integers, others the bits of floats.
     std::vector<glm::uvec4> downloadComponents(int level = 0, int layer = 0) const;
 
     const graph::TextureDesc& desc() const { return desc_; }
@@ -62,11 +62,11 @@ public:
     std::uint32_t id() const { return id_.value(); }
     const std::string& label() const { return label_; }
 
-    /// Unique among all textures ever made, unlike GL names, which are used again. Expires with the texture.
+    /// Unique among all textures ever made, unlike GL names, which are reused. Expires with the texture.
     const std::shared_ptr<const std::uint64_t>& serial() const { return serial_; }
 
 private:
-    /// As these GLenum values say.
+    /// Reads a level as these GLenum values.
     void readLevel(std::uint32_t transferFormat, std::uint32_t transferType, int level, std::span<std::byte> texels,
                    int layer) const;
 

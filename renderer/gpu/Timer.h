@@ -20,8 +20,8 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// Times stretches of GPU work by time stamps in a ring, so that reading never waits for the GPU. On software
-/// rasterisers the figures mean nothing (the work is deferred); Capabilities::isSoftware tells.
+/// Measures spans of GPU work by a ring of timestamp queries, so that reading never waits for the GPU. Meaningless on
+/// software rasterisers (Capabilities::isSoftware), which defer the work.
 class GpuTimer {
 public:
     explicit GpuTimer(const std::string& label);
@@ -29,10 +29,10 @@ public:
     GpuTimer(GpuTimer&&) noexcept = default;
     GpuTimer& operator=(GpuTimer&&) noexcept = default;
 
-    /// begin() and end() in turn. When every slot of the ring is still under way the stretch goes unmeasured.
+    /// Calls of begin() and end() alternate. A span goes unmeasured while every slot of the ring is pending.
     void begin();
     void end();
-    /// The newest stretch that the GPU has finished, in milliseconds; none before the first one has. Never waits.
+    /// Time of the newest span that the GPU has finished, in milliseconds; none before the first. Never waits.
     std::optional<double> latestMs();
 
 private:

@@ -25,7 +25,7 @@ VertexArray::VertexArray(std::string label, std::span<const VertexAttribute> att
         else
             glVertexArrayAttribFormat(id, location, attribute.components,
                                       attribute.type == VertexType::Float ? GL_FLOAT : GL_UNSIGNED_INT, GL_FALSE, 0);
-        // One binding an attribute: simple, and every driver takes at least as many bindings as attributes.
+        // One binding per attribute: simple, and every driver has at least as many bindings as attributes.
         if (attribute.buffer) setBuffer(attribute, *attribute.buffer);
         glVertexArrayAttribBinding(id, location, location);
         glVertexArrayBindingDivisor(id, location, attribute.divisor);

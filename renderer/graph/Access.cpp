@@ -11,9 +11,9 @@
 namespace tessera::graph {
 namespace {
 
-// Which bit serves which access: OpenGL 4.5 core specification, section 7.13.2. A depth test may come with sampling of
-// the same texture. Reading back or copying a texture may go through a framebuffer (ReadPixels, BlitFramebuffer), which
-// the specification counts to the framebuffer bit, or through Get/TexSubImage, which it counts to the update bits.
+// Barrier bits by access: OpenGL 4.5 core specification, section 7.13.2. A depth test may be combined with sampling of
+// the same texture. Readbacks and copies of a texture go through a framebuffer (ReadPixels, BlitFramebuffer), which
+// needs the framebuffer bit, or through Get/TexSubImage, which need the update bits.
 constexpr Barrier kTransfer = Barrier::TransferOrUpdate | Barrier::Framebuffer;
 constexpr std::array kAccesses{
     AccessInfo{Access::Sampled, "Sampled", false, true, false, false, true, Barrier::TextureFetch},

@@ -7,7 +7,7 @@
 
 namespace tessera::graph {
 
-/// What an Access means to validation and to GL's memory model; one table behind accessInfo() holds them all.
+/// Properties of an Access for validation and GL's memory model; the table behind accessInfo() is the only list.
 struct AccessInfo {
     Access access;
     std::string_view name;
@@ -21,7 +21,7 @@ struct AccessInfo {
 const AccessInfo& accessInfo(Access access);
 
 bool isAttachment(Access access);
-/// Whether the access is of one part of a texture.
+/// Whether the access uses a single level and layer of a texture.
 bool isOfPart(Access access);
 
 /// Why a resource of this shape does not allow the access, with the remedy; empty when it does.

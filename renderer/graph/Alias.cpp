@@ -35,7 +35,7 @@ void allocate(const Graph& graph, bool alias, CompiledGraph& compiled) {
     for (CompiledResource* resource : byFirstUse) {
         const ResourceDesc& desc = graph.resources()[resource->resource].desc;
         compiled.bytesWithoutAliasing += resource->bytes;
-        if (const auto* buffer = std::get_if<BufferDesc>(&desc); buffer && buffer->grows) { // has memory of its own
+        if (const auto* buffer = std::get_if<BufferDesc>(&desc); buffer && buffer->grows) { // has dedicated memory
             compiled.bytes += resource->bytes;
             continue;
         }

@@ -14,7 +14,7 @@ constexpr Barrier without(Barrier a, Barrier b) {
     return Barrier(std::uint32_t(a) & ~std::uint32_t(b));
 }
 
-/// The bits not yet issued since something happened to a piece of memory.
+/// Barrier bits not yet issued since the last store to, and the last load from, a piece of memory.
 struct Memory {
     Barrier sinceStore = Barrier::None;
     Barrier sinceLoad = kStores; ///< an earlier frame may have read it

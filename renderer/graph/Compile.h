@@ -7,8 +7,8 @@
 
 namespace tessera::graph {
 
-/// The memory barrier before a pass, because an earlier one wrote through an image or a storage buffer; a bit set that
-/// the backend turns into glMemoryBarrier bits (the rule: Barriers.h).
+/// The memory barrier before a pass that follows shader stores to images or storage buffers: a bit set that the backend
+/// maps to glMemoryBarrier bits (rules: Barriers.h).
 enum class Barrier : std::uint32_t {
     None = 0,
     TextureFetch = 1u << 0,
@@ -54,14 +54,14 @@ struct CompiledGraph {
     std::vector<ProgramDesc> programs;       ///< of the passes that run, in their order
     std::vector<Culled> culled;              ///< in the order in which they would have run
     std::vector<CompiledResource> resources; ///< parallel to Graph::resources()
-    std::vector<ResourceDesc> allocations;   ///< what a backend must provide, by CompiledResource::physical
-    std::size_t bytes = 0;                   ///< with aliasing, imported resources left out
+    std::vector<ResourceDesc> allocations;   ///< allocations for the backend, by CompiledResource::physical
+    std::size_t bytes = 0;                   ///< with aliasing, without imported resources
     std::size_t bytesWithoutAliasing = 0;
 };
 
 struct CompileOptions {
     bool cull = true;  ///< off: every pass runs (prune = off)
-    bool alias = true; ///< off: every transient has an allocation of its own
+    bool alias = true; ///< off: transients do not share allocations
 };
 
 /// Validates, orders (declaration order wherever data flow allows), culls, computes lifetimes, aliases transients of

@@ -17,7 +17,7 @@ std::string listNames(const std::vector<std::string>& names, std::string_view co
     return text;
 }
 
-/// The passes that use the version that this write makes: its readers, and the pass that adds to it.
+/// The passes that use the version that a write produces: its readers, and the pass that writes the next version.
 std::vector<std::string> usersOf(const Graph& graph, const Flow& flow, std::uint32_t pass, const Graph::Use& use) {
     std::vector<std::string> users;
     for (const std::uint32_t reader : flow.readers(use.resource, use.version))

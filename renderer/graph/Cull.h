@@ -8,10 +8,10 @@
 
 namespace tessera::graph {
 
-/// Which passes lead to an output of the frame or to a kept pass, by index; the graph must be without faults.
+/// Which passes contribute to a frame output or to a kept pass, by index. The graph must be valid.
 std::vector<bool> findNeeded(const Graph& graph, const Flow& flow);
 
-/// Why a pass is not among the needed ones, in plain words.
+/// Why a pass was culled, in plain words.
 std::string whyCulled(const Graph& graph, const Flow& flow, std::uint32_t pass);
 
 } // namespace tessera::graph

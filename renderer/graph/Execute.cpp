@@ -14,7 +14,7 @@ namespace {
 template <typename Tag>
 constexpr const char* kKind = std::is_same_v<Handle<Tag>, TextureHandle> ? "texture" : "buffer";
 
-/// Throws on what a pass threw, with the pass's name in front. To be called while that exception is handled.
+/// Rethrows the exception being handled, prefixed with the pass's name. Must be called in a catch block.
 [[noreturn]] void rethrowNaming(const std::string& pass) {
     const auto named = [&](const std::exception& error) { return fmt::format("pass '{}': {}", pass, error.what()); };
     try {
@@ -40,7 +40,7 @@ void Backend::endFrame(Barrier barrier) {
     endPass("end of frame");
 }
 
-/// What one pass may ask for: the handles it was given by, or handed to, its PassBuilder.
+/// Resolves the handles that a pass gave to, or got from, its PassBuilder.
 class Execution::Context final : public PassContext {
 public:
     Context(Execution& execution, const Graph::Pass& pass) : execution_(execution), pass_(pass) {}
@@ -149,7 +149,7 @@ Execution::Execution(const Graph& graph, const CompiledGraph& compiled, Backend&
     }
 }
 
-/// Of the resources of its name, which one it is, counted from 0.
+/// Index of a resource among those of the same name.
 int Execution::numberOf(std::uint32_t resource) const {
     const auto& all = graph_.resources();
     return int(std::count_if(all.begin(), all.begin() + resource,
@@ -176,7 +176,7 @@ void Execution::run() {
     hasRun_ = false;
     backend_.allocate(compiled_.allocations);
     findGrowing();
-    setRevisions(false); // a frame that fails leaves nothing to rely on
+    setRevisions(false); // a failed frame leaves undefined contents
     std::size_t position = 0;
     try {
         for (; position < compiled_.order.size(); ++position) runPass(compiled_.order[position]);
@@ -190,12 +190,12 @@ void Execution::run() {
 }
 
 void Execution::endFailedFrame(std::size_t position) {
-    // The next frame relies on every store being visible, and finds this one's in memory that both share.
+    // The next frame reuses this memory, and relies on every store being visible.
     Barrier owed = compiled_.after;
     for (; position < compiled_.order.size(); ++position) owed = owed | compiled_.order[position].before;
     try {
         backend_.endFrame(owed);
-    } catch (...) { // what the pass threw is the cause, and says more
+    } catch (...) { // the pass's exception is the cause
     }
 }
 
@@ -223,7 +223,7 @@ void Execution::runPass(const CompiledPass& compiledPass) {
         if (open) {
             try {
                 backend_.endPass(pass.name);
-            } catch (...) { // what the pass threw first is the cause, and says more
+            } catch (...) { // the pass's exception is the cause
             }
         }
         try {

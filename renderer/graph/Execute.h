@@ -9,7 +9,7 @@
 
 namespace tessera::graph {
 
-/// What a compiled graph runs on. The OpenGL one is gpu::GraphBackend; tests use one that records its calls.
+/// Executes a compiled graph. gpu::GraphBackend implements it with OpenGL; tests use one that records its calls.
 class Backend {
 public:
     virtual ~Backend() = default;
@@ -17,7 +17,7 @@ public:
     virtual void allocate(std::span<const ResourceDesc> allocations) = 0;
     virtual const gpu::Texture& texture(int physical) = 0;
     virtual const gpu::Buffer& buffer(int physical) = 0;
-    /// What lives across frames under a name, made where there is none of that shape.
+    /// The persistent texture of a name, created if there is none of that shape.
     virtual const gpu::Texture& persistentTexture(const std::string& name, const TextureDesc& desc) = 0;
     /// The growing buffer of a name, enlarged to at least `bytes`. `number` distinguishes buffers of the same name in a
     /// frame.
@@ -27,44 +27,43 @@ public:
     virtual void setRevision(const std::string& name, std::optional<std::uint64_t> revision) = 0;
     /// Binds a framebuffer of these textures.
     virtual void bindTargets(std::span<const Target> colors, const Target& depth) = 0;
-    /// Binds a copy of the bytes as the uniform block at a slot. Throws std::logic_error where one of the programs has
-    /// a block of another size there.
+    /// Binds a copy of the bytes as the uniform block at a slot. Throws std::logic_error if a program's block there
+    /// differs in size.
     virtual void bindConstants(std::uint32_t slot, std::span<const std::byte> bytes,
                                std::span<const gpu::Program* const> programs) = 0;
-    /// Opens debug group and timers of a pass, after the barrier; `endPass` closes them, also when the pass throws.
+    /// Issues the barrier, then opens debug group and timers of a pass; `endPass` closes them, even if the pass throws.
     virtual void beginPass(std::string_view name, Barrier barrier) = 0;
     virtual void endPass(std::string_view name) = 0;
-    /// Issues CompiledGraph::after when every pass has run. Where one threw, the barriers of those that did not run are
-    /// issued too. By default a pass of its own, "end of frame", where there is a barrier to issue.
+    /// Issues CompiledGraph::after after the last pass; if a pass threw, also the barriers of passes that did not run.
+    /// The default runs an empty pass, "end of frame", if there is a barrier.
     virtual void endFrame(Barrier barrier);
 };
 
-/// Where programs come from; shader::ProgramLibrary in the product.
+/// Provides programs; shader::ProgramLibrary outside of tests.
 class ProgramSource {
 public:
     virtual ~ProgramSource() = default;
-    /// The reference holds as long as the source.
+    /// The reference is valid as long as the source.
     virtual const gpu::Program& get(const ProgramDesc& desc) = 0;
 };
 
-/// Thrown to abandon a frame when its caller no longer wants it. It is no failure, so no pass name is added to it.
+/// Thrown to abandon a frame that is no longer wanted. Not an error, so no pass name is added to it.
 class Interrupted : public std::exception {
 public:
     const char* what() const noexcept override { return "the frame was given up"; }
 };
 
-/// Where a graph's resources are while (and after) it runs. Graph, compiled graph, backend, programs and imported
-/// resources must outlive it.
+/// Runs a compiled graph, and resolves its resources during and after the run. Graph, compiled graph, backend, programs
+/// and imported resources must outlive it.
 class Execution {
 public:
-    /// Throws std::logic_error where the frame uses an imported resource that is null.
+    /// Throws std::logic_error if the frame uses an imported resource that is null.
     Execution(const Graph& graph, const CompiledGraph& compiled, Backend& backend, ProgramSource* programs = nullptr);
-    /// Runs every pass of the plan in order. What a pass throws is thrown on with the pass's name in front: as
-    /// InputError or std::logic_error where it was one, else as std::runtime_error, the original nested inside;
-    /// Interrupted as it is. The next frame runs as after one that ended well.
+    /// Runs every pass in order. Rethrows the exception of a pass prefixed with its name, the original nested inside:
+    /// as InputError or std::logic_error if it was one, else as std::runtime_error; Interrupted unchanged. The next
+    /// frame runs as after a successful one.
     void run();
-    /// A resource after run(): an output or an imported one, since only these still hold what was written; any other is
-    /// a std::logic_error.
+    /// An output or imported resource after run(). Throws std::logic_error for others, whose contents are not kept.
     const gpu::Texture& texture(TextureHandle handle) const;
     const gpu::Buffer& buffer(BufferHandle handle) const;
     /// The bytes that a buffer holds, as PassContext::bytes().
@@ -83,17 +82,17 @@ private:
     const Graph& graph_;
     const CompiledGraph& compiled_;
     Backend& backend_;
-    ProgramSource* programs_; ///< null where no pass has one
+    ProgramSource* programs_; ///< null if no pass uses programs
     struct Place {
         const gpu::Texture* texture = nullptr;
         const gpu::Buffer* buffer = nullptr;
-        std::size_t bytes = 0; ///< of a buffer that grows
+        std::size_t bytes = 0; ///< of a growing buffer
     };
     void findGrowing();
     const gpu::Buffer& grow(std::uint32_t resource, std::size_t bytes);
     int numberOf(std::uint32_t resource) const;
     std::vector<Place>
-        places_; ///< by resource, of those that have no allocation of this frame: imported, kept, growing
+        places_; ///< by resource, for those without an allocation of this frame: imported, persistent, growing
     bool hasRun_ = false;
 };
 

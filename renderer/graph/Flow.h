@@ -9,8 +9,8 @@
 
 namespace tessera::graph {
 
-/// Who makes and who reads each version of each resource. Uses of handles that name no resource are left out, so that a
-/// faulty graph can be looked at as well.
+/// The writer and the readers of each version of each resource. Ignores uses of invalid handles, so that faulty graphs
+/// can be analysed too.
 class Flow {
 public:
     explicit Flow(const Graph& graph);
@@ -27,7 +27,7 @@ private:
     std::vector<std::vector<Version>> versions_; ///< [resource][version]
 };
 
-/// Appends a name to a list that lacks it.
+/// Appends a name unless the list contains it.
 void addOnce(std::vector<std::string>& names, const std::string& name);
 
 } // namespace tessera::graph

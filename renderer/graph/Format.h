@@ -28,7 +28,7 @@ struct FormatInfo {
     Format format;
     std::string_view name; ///< as in plans and documentation, e.g. "RGBA32F"
     int components;
-    int bytes; ///< a texel
+    int bytes; ///< per texel
     bool depth;
     bool integer;
 };

@@ -34,7 +34,7 @@ Graph::Use readOf(Handle<Tag> handle, Access access, const Part& part = {}) {
             .part = part};
 }
 
-/// Records a write and returns the handle of the version it makes; an unusable handle stays unusable.
+/// Records a write and returns the handle of the new version; an invalid handle stays invalid.
 template <typename Tag>
 Handle<Tag> writeTo(std::vector<Graph::Resource>& resources, std::vector<Graph::Use>& uses, Handle<Tag> handle,
                     Access access, const Part& part = {}) {

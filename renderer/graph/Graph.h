@@ -14,8 +14,8 @@
 #include "renderer/graph/ProgramDesc.h"
 #include "renderer/graph/Resource.h"
 
-/// Declaration of a frame: passes, the resources they read and write, nothing of OpenGL. A recipe declares, compile()
-/// (Compile.h) checks and plans, an Execution (Execute.h) runs the plan on a Backend.
+/// The render graph: declares a frame's passes and the resources they read and write, independent of OpenGL. compile()
+/// (Compile.h) validates and schedules them, an Execution (Execute.h) runs them on a Backend.
 namespace tessera::gpu {
 class Texture;
 class Buffer;
@@ -26,18 +26,18 @@ namespace tessera::graph {
 
 class Graph;
 
-/// A texture to rasterise into.
+/// A render target: one level and layer of a texture.
 struct Target {
     const gpu::Texture* texture = nullptr;
     Part part;
     Target(const gpu::Texture* ofTexture = nullptr, const Part& itsPart = {}) : texture(ofTexture), part(itsPart) {}
 };
 
-/// Handed to a pass's setup function: what is said here is all the graph knows of the pass. Attachments and images are
-/// one part of a texture; every other access is of all of it.
+/// Declares the resources and programs of a pass, in its setup function. Attachments and images are one level and layer
+/// of a texture; every other access covers the whole texture.
 class PassBuilder {
 public:
-    /// A transient resource that this pass is the first to write.
+    /// Creates a transient resource, first written by this pass.
     TextureHandle create(std::string name, const TextureDesc& desc, Access write = Access::ColorAttachment,
                          const Part& part = {});
     BufferHandle create(std::string name, const BufferDesc& desc, Access write = Access::StorageWrite);
@@ -45,20 +45,20 @@ public:
     TextureHandle read(TextureHandle handle, Access access = Access::Sampled, const Part& part = {});
     BufferHandle read(BufferHandle handle, Access access = Access::StorageRead);
 
-    /// Adds to what the version holds (a blend, a depth-tested draw, another layer): depends on it, and returns the
-    /// next version.
+    /// Modifies a resource (a blend, a depth-tested draw, another layer): depends on the given version and returns the
+    /// next.
     TextureHandle write(TextureHandle handle, Access access = Access::ColorAttachment, const Part& part = {});
     BufferHandle write(BufferHandle handle, Access access = Access::StorageWrite);
 
-    /// States the format and size that this pass needs of a texture; a difference is a fault of compile(). A width,
-    /// height or sample count of 0 stands for any.
+    /// Requires a format, size and shape of a texture; compile() reports a mismatch. A width, height or sample count of
+    /// 0 matches any.
     void expect(TextureHandle handle, const TextureDesc& desc);
 
-    /// States a program that this pass runs and returns its number for PassContext::program(), counted from 0. So the
-    /// programs of a frame follow from its passes.
+    /// Declares a program of this pass and returns its index for PassContext::program(). A compiled graph thus lists
+    /// all programs of a frame.
     std::size_t program(ProgramDesc desc);
 
-    /// Keeps the pass although nothing reads its outputs (it reports, downloads, presents).
+    /// Exempts the pass from culling, because of its side effects (reports, downloads, presents).
     void keep();
 
 private:
@@ -74,20 +74,19 @@ public:
     virtual ~PassContext() = default;
     virtual const gpu::Texture& texture(TextureHandle handle) const = 0;
     virtual const gpu::Buffer& buffer(BufferHandle handle) const = 0;
-    /// Makes room in a buffer that grows and was created with 0 bytes, once a frame and before anything else is asked
-    /// of it. So a buffer that was resolved is never replaced while the frame runs. The buffer may be larger than
-    /// asked.
+    /// Sizes a growing buffer that was created with 0 bytes, once per frame and before any other use of it. A resolved
+    /// buffer is thus never replaced within a frame. The buffer may be larger than requested.
     virtual const gpu::Buffer& allocate(BufferHandle handle, std::size_t bytes) const = 0;
-    /// The size of a buffer in bytes: that of its description, or that of allocate().
+    /// The size of a buffer in bytes, from its description or from allocate().
     virtual std::size_t bytes(BufferHandle handle) const = 0;
-    /// The pass's program of this number, in the order in which it declared them.
+    /// The pass's program by index, in order of declaration.
     virtual const gpu::Program& program(std::size_t number) const = 0;
     const gpu::Program& program() const { return program(0); }
     /// Binds the render targets that the pass declared, colours in the order of their declaration.
     virtual void bindTargets() const = 0;
     /// Binds a copy of a value as the uniform block at a slot (shaders/shared/slots.h) until the pass ends. Throws
-    /// std::logic_error where a program of the pass has a block of another size there. Offsets are not compared: of
-    /// members that are vec4, matrices or runs of four 4-byte scalars they are those of std140.
+    /// std::logic_error if a program's block there differs in size. Offsets are not checked: they match std140 if
+    /// members are vec4, matrices or groups of four 4-byte scalars.
     template <typename T>
     void constants(std::uint32_t slot, const T& value) const {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -107,7 +106,7 @@ public:
         Access access;
         bool isWrite;
         bool isTexture;     ///< the kind of the handle that was passed
-        bool stale = false; ///< a write that was handed a version other than the newest
+        bool stale = false; ///< a write through a handle of a version other than the newest
         Part part = {};     ///< of an attachment or an image
     };
     struct Expectation {
@@ -125,23 +124,23 @@ public:
     struct Resource {
         std::string name;
         ResourceDesc desc;
-        bool imported = false;           ///< exists outside the frame, which gives it no memory
+        bool imported = false;           ///< exists outside the frame, which allocates no memory for it
         std::uint32_t newestVersion = 0; ///< 0: before any write
         std::variant<const gpu::Texture*, const gpu::Buffer*> outside = {}; ///< what was imported; null in a plan
-        std::optional<std::uint64_t> revision; ///< of one that lives across frames: what the frame leaves in it
+        std::optional<std::uint64_t> revision; ///< persistent resources: revision of the contents after the frame
         bool hasContents = false;              ///< may be read before any pass has written it
     };
 
     /// Whether a resource of this name, shape and revision is left from an earlier frame.
     using Keeps = std::function<bool(const std::string& name, const ResourceDesc& desc, std::uint64_t revision)>;
-    /// `keeps` asks the backend (gpu::GraphBackend::holds()). Without it nothing is left, as in a plan.
+    /// `keeps` queries the backend (gpu::GraphBackend::holds()). Without it no contents are kept, as in a plan.
     explicit Graph(Keeps keeps = {});
     ~Graph();
     Graph(Graph&&) noexcept;
     Graph& operator=(Graph&&) noexcept;
 
-    /// Declares a pass: `setup(PassBuilder&, Data&)` fills Data with handles at once, `execute(const Data&, const
-    /// PassContext&)` runs later, if the pass is not culled. Returns the filled Data, the pass's typed outputs.
+    /// Declares a pass: `setup(PassBuilder&, Data&)` fills Data with handles immediately, `execute(const Data&, const
+    /// PassContext&)` runs later, unless the pass is culled. Returns the filled Data, the pass's typed outputs.
     template <typename Data, typename Setup, typename Execute>
     Data addPass(std::string name, Setup&& setup, Execute&& execute) {
         const std::uint32_t pass = beginPass(std::move(name));
@@ -154,13 +153,13 @@ public:
         return *data;
     }
 
-    /// A resource that exists outside the frame (a scene's vertices, a window), and outlives it. Reading it needs no
-    /// producer. Null where the frame is only planned.
+    /// Imports a resource that exists outside the frame (a scene's vertices, a window) and outlives it. It can be read
+    /// without a producer. Null if the frame is only planned.
     TextureHandle import(std::string name, const TextureDesc& desc, const gpu::Texture* texture = nullptr);
     BufferHandle import(std::string name, const BufferDesc& desc, const gpu::Buffer* buffer = nullptr);
 
-    /// A resource that the backend keeps from frame to frame under its name: a cache, a history. `revision` identifies
-    /// the input that its contents are computed from. Where holds() is false, a pass of the frame must write it before
+    /// A resource that the backend keeps across frames under its name, such as a cache or a history. `revision`
+    /// identifies the input that its contents are computed from. If holds() is false, a pass must write it before
     /// another reads it.
     TextureHandle persist(std::string name, const TextureDesc& desc, std::uint64_t revision);
     BufferHandle persist(std::string name, const BufferDesc& desc, std::uint64_t revision);

@@ -55,7 +55,7 @@ std::string describe(const Graph& graph, const Edge& edge) {
     return fmt::format("'{}' writes over version {} of '{}', which '{}' reads", to, edge.version, resource, from);
 }
 
-/// Searches shortest cycles among passes that could not be ordered, one for each knot (strongly connected component).
+/// Finds cycles among passes that could not be ordered: one, as short as possible, per strongly connected component.
 class CycleFinder {
 public:
     CycleFinder(const Graph& graph, const std::vector<Edge>& edges, const std::vector<bool>& ordered)
@@ -72,7 +72,7 @@ public:
         for (std::uint32_t start = 0; start < done_.size(); ++start) {
             if (done_[start]) continue;
             const auto forward = arrivals(start, outgoing_);
-            if (!forward[start]) continue; // only waits for a cycle
+            if (!forward[start]) continue; // waits for a cycle, but is not part of one
             const auto backward = arrivals(start, incoming_);
             for (std::uint32_t pass = 0; pass < done_.size(); ++pass)
                 if (forward[pass] && backward[pass]) done_[pass] = true;
@@ -82,7 +82,7 @@ public:
     }
 
 private:
-    using Arrivals = std::vector<const Edge*>; ///< by which edge a breadth-first walk first reached each pass
+    using Arrivals = std::vector<const Edge*>; ///< the edge by which a breadth-first search first reached each pass
 
     static Arrivals arrivals(std::uint32_t start, const std::vector<std::vector<Edge>>& edges) {
         Arrivals reachedBy(edges.size(), nullptr);

@@ -12,7 +12,7 @@
 namespace tessera::graph {
 namespace {
 
-/// The inputs of a pass; a resource that it only reads back from itself is no input.
+/// The inputs of a pass, without resources that it only reads back from itself.
 std::vector<std::string> readsOf(const Graph::Pass& pass, const std::vector<std::string>& names) {
     std::vector<std::string> reads;
     for (const Graph::Use& use : pass.uses) {
@@ -31,7 +31,7 @@ std::vector<std::string> writesOf(const Graph::Pass& pass, const std::vector<std
     return writes;
 }
 
-/// The transients that a culled pass would have made. No pass that runs uses them: it would need their maker.
+/// Bytes of the transients that a culled pass would create. Remaining passes use none of them.
 std::size_t bytesSaved(const Graph& graph, const Graph::Pass& pass) {
     std::size_t bytes = 0;
     for (const Graph::Use& use : pass.uses) {
@@ -105,7 +105,7 @@ std::string readableBytes(std::size_t bytes) {
     static constexpr std::array<const char*, 5> kUnits{"B", "KiB", "MiB", "GiB", "TiB"};
     double value = double(bytes);
     std::size_t unit = 0;
-    // One more unit already where rounding to whole numbers would print 1024.
+    // Moves to the next unit already where rounding to whole numbers would print 1024.
     while (value >= 1023.5 && unit + 1 < kUnits.size()) {
         value /= 1024.0;
         ++unit;

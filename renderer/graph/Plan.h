@@ -14,9 +14,9 @@ struct Plan {
     struct Pass {
         std::string name;
         std::vector<std::string> reads;
-        std::vector<std::string> writes; ///< made by this pass, or added to
+        std::vector<std::string> writes; ///< created or modified by this pass
         std::optional<double> ms;
-        std::string barrier = {}; ///< in words, what GL must make visible before the pass; empty: nothing
+        std::string barrier = {}; ///< memory barrier before the pass, in words; empty: none
     };
     struct LeftOut {
         std::string what;
@@ -25,7 +25,7 @@ struct Plan {
         std::optional<double> ms;
         std::vector<std::string> reads = {}; ///< of a pass; empty for anything else
         std::vector<std::string> writes = {};
-        std::size_t before = 0; ///< index of the pass that a pass would have run before
+        std::size_t before = 0; ///< of a pass: index of the pass it would precede
     };
     struct Choice {
         std::string what;
@@ -37,7 +37,7 @@ struct Plan {
         std::string format; ///< "buffer" for buffers
         int width = 0;      ///< texels; 0 for buffers
         int height = 0;
-        std::optional<std::size_t> bytes; ///< none where it is known only while the frame runs
+        std::optional<std::size_t> bytes; ///< none: known only at execution
         int first = -1;                   ///< index into passes
         int last = -1;
         std::string aliasOf; ///< empty: none
@@ -56,16 +56,15 @@ struct Plan {
 };
 inline constexpr int kPlanSchema = 1;
 
-/// By resource of the graph, its name in plans: resources of the same name get a number, "blur", "blur
-/// (2)".
+/// Names in plans, by resource of the graph. Equal names get a number: "blur", "blur (2)".
 std::vector<std::string> resourceNames(const Graph& graph);
 
-/// The graph's share of a plan: passes, resources in use, bytes, and the culled passes among leftOut.
+/// The graph's part of a plan: passes, resources in use, bytes, and the culled passes among leftOut.
 Plan makePlan(const Graph& graph, const CompiledGraph& compiled);
 
 std::string planText(const Plan& plan); ///< for people, tables that fit 100 columns
 std::string planJson(const Plan& plan); ///< bytes that are not UTF-8 are replaced
-std::string planDot(const Plan& plan);  ///< Graphviz: passes as boxes, resources as ellipses, left-out things dashed
+std::string planDot(const Plan& plan);  ///< Graphviz: passes as boxes, resources as ellipses, omitted items dashed
 
 /// "512 B", "3.5 MiB", "100 GiB": binary units, one decimal below 100.
 std::string readableBytes(std::size_t bytes);

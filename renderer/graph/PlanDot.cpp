@@ -11,10 +11,9 @@
 namespace tessera::graph {
 namespace {
 
-constexpr std::size_t kNoteWidth = 34; ///< characters a line of explanations
+constexpr std::size_t kNoteWidth = 34; ///< characters per line of explanations
 
-/// Tints of memory that several resources share, in order of appearance; far apart in hue and light enough for black
-/// text.
+/// Tints of aliased memory, in order of appearance; far apart in hue and light enough for black text.
 constexpr std::array kSharedTints{"#f6c28b", "#9fd8cb", "#c9b6e4", "#f4a9a8",
                                   "#b5d99c", "#9cc3e6", "#f0df8c", "#e3b7cf"};
 
@@ -50,8 +49,8 @@ std::string label(const std::string& title, const std::vector<std::string>& line
     return text + ">";
 }
 
-/// Draws the data flow in the order of execution, each version of a resource as an ellipse of its own, so that a pass
-/// that adds to a resource stands between two of them and arrows never run backwards.
+/// Draws the data flow in the order of execution. Each version of a resource is a separate ellipse, so that a pass that
+/// modifies a resource stands between two of them and arrows never point backwards.
 class Drawing {
 public:
     explicit Drawing(const Plan& plan) : plan_(plan) {
@@ -116,7 +115,7 @@ private:
         text_ += fmt::format("  {} -> {}{};\n", from, to, isLeftOut ? R"( [style=dashed, color="#b4bcc2"])" : "");
     }
 
-    /// The ellipse of a resource's version at this point of the frame; empty for a resource without contents yet.
+    /// The node of a resource's current version; empty for a resource without contents yet.
     std::string newestVersion(const std::string& name, bool isLeftOut) {
         if (const auto leftOut = leftOutVersions_.find(name); isLeftOut && leftOut != leftOutVersions_.end())
             return leftOut->second;
@@ -155,7 +154,7 @@ private:
         return found == plan_.resources.end() ? nullptr : &*found;
     }
 
-    /// What was left out and takes no part in the data flow.
+    /// Adds omitted items that are not part of the data flow.
     void addNotes() {
         std::string notes;
         for (std::size_t i = 0; i < plan_.leftOut.size(); ++i) {
@@ -172,8 +171,8 @@ private:
     const Plan& plan_;
     std::string text_;
     std::map<std::string, std::size_t> tints_;           ///< by the owner of shared memory
-    std::map<std::string, std::string> versions_;        ///< the newest ellipse of a resource
-    std::map<std::string, std::string> leftOutVersions_; ///< the same among what is left out
+    std::map<std::string, std::string> versions_;        ///< newest node of a resource
+    std::map<std::string, std::string> leftOutVersions_; ///< the same for culled passes
     int nodes_ = 0;
 };
 

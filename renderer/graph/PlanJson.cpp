@@ -16,7 +16,7 @@ Json textOrNull(const std::string& text) {
     return text.empty() ? Json(nullptr) : Json(text);
 }
 
-/// Each item of a list as an object.
+/// Converts a list to a JSON array.
 template <typename Items, typename ToJson>
 Json listOf(const Items& items, ToJson&& toJson) {
     Json list = Json::array();

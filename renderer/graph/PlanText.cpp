@@ -10,7 +10,7 @@ namespace tessera::graph {
 namespace {
 
 constexpr std::size_t kWidth = 100;
-constexpr std::size_t kLongestBar = 24; ///< passes; a frame of more shows lifetimes as numbers only
+constexpr std::size_t kLongestBar = 24; ///< passes; frames with more show lifetimes as numbers only
 
 using Align = Table::Align;
 using Cells = Table::Cells;
@@ -90,7 +90,7 @@ std::string sizeOf(const Plan::Resource& resource) {
     return resource.samples == 1 ? size : fmt::format("{} x{}", size, resource.samples);
 }
 
-/// "1-3", with a bar that shows it on the row of passes.
+/// "1-3", with a bar over all passes.
 std::string lifetime(const Plan::Resource& resource, std::size_t passes) {
     const std::size_t digits = std::to_string(passes).size();
     const std::string numbers = fmt::format("{:>{}}-{:<{}}", resource.first, digits, resource.last, digits);

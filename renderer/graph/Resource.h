@@ -5,10 +5,10 @@
 
 #include "renderer/graph/Format.h"
 
-/// What passes exchange: shapes of textures and buffers, handles that name them, and the ways of using them.
+/// Resources that passes exchange: descriptions of textures and buffers, handles, and kinds of access.
 namespace tessera::graph {
 
-/// What the layers of a texture are: one alone, as many as there are, or the six sides of a cube.
+/// The layers of a texture: a single one, an array, or the six faces of a cube.
 enum class Shape : std::uint8_t { Flat, Array, Cube };
 
 struct TextureDesc {
@@ -17,17 +17,17 @@ struct TextureDesc {
     int height = 0; ///< texels
     int samples = 1;
     int levels = 1; ///< mip levels, each half as wide and high as the one before
-    int layers = 1; ///< of a cube 6: +x, -x, +y, -y, +z, -z
+    int layers = 1; ///< 6 for a cube: +x, -x, +y, -y, +z, -z
     Shape shape = Shape::Flat;
     bool operator==(const TextureDesc&) const = default;
 };
 
 /// Levels of a full mip chain, down to 1 x 1.
 int mipLevelsFor(int width, int height);
-/// The texture that one level of another is, all its layers.
+/// Description of one mip level, with all its layers.
 TextureDesc mipDesc(const TextureDesc& desc, int level);
 
-/// One picture among a texture's levels and layers.
+/// A subresource: one level and layer of a texture.
 struct Part {
     int level = 0;
     int layer = 0;
@@ -36,8 +36,8 @@ struct Part {
 
 struct BufferDesc {
     std::size_t bytes = 0;
-    /// How much it holds differs from frame to frame: its memory is kept and only ever grows. Of 0 bytes, its first
-    /// writer says how many once it runs (PassContext::allocate()).
+    /// The size varies from frame to frame: memory is kept across frames and only grows. If `bytes` is 0, the first
+    /// writer sets the size at execution (PassContext::allocate()).
     bool grows = false;
     bool operator==(const BufferDesc&) const = default;
 };
@@ -45,7 +45,7 @@ struct BufferDesc {
 using ResourceDesc = std::variant<TextureDesc, BufferDesc>;
 std::size_t descBytes(const ResourceDesc& desc);
 
-/// Names one version of a resource: writing gives a new version, and the old handle is stale from then on.
+/// Refers to one version of a resource: writing returns a new version, and the old handle becomes stale.
 template <typename Tag>
 struct Handle {
     static constexpr std::uint32_t kInvalid = 0xffffffffu;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kIndent = 2;
 constexpr std::size_t kGap = 2;
-constexpr std::size_t kNarrowest = 4; ///< characters that a column keeps, however little room there is
+constexpr std::size_t kNarrowest = 4; ///< least width of a column, characters
 
 bool startsCharacter(char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0u) != 0x80u;

@@ -39,7 +39,7 @@ private:
     const Graph::Resource& resource(std::uint32_t index) const { return graph_.resources()[index]; }
     const std::string& nameOf(const Graph::Use& use) const { return resource(use.resource).name; }
 
-    /// The same fault may show in several places; once is enough.
+    /// Reports a fault once, even if several places show it.
     void report(std::string fault) {
         if (std::find(faults_.begin(), faults_.end(), fault) == faults_.end()) faults_.push_back(std::move(fault));
     }
@@ -62,7 +62,7 @@ private:
             report(fmt::format("buffer '{}', {}, is empty: it must have at least 1 byte, or grow", made.name, origin));
     }
 
-    /// Memory outside the frame is its owner's; what lives across frames is known by its name.
+    /// Imported buffers cannot grow, since the frame does not own them. Persistent resources need unique names.
     void checkKept(std::uint32_t index) {
         const Graph::Resource& kept = resource(index);
         const auto* buffer = std::get_if<BufferDesc>(&kept.desc);
@@ -169,8 +169,8 @@ private:
 
     static std::string anyOr(int size) { return size == 0 ? "any" : std::to_string(size); }
 
-    /// One framebuffer: equal size and samples, one depth texture, nothing attached twice, nothing sampled, loaded or
-    /// stored that is drawn into (a feedback loop, undefined by the OpenGL 4.5 core specification, section 9.3.1).
+    /// Checks that attachments form one framebuffer: equal size and samples, one depth texture, no duplicates, none
+    /// sampled, loaded or stored (a feedback loop, undefined by the OpenGL 4.5 core specification, section 9.3.1).
     void checkAttachments(const std::string& subject, const Graph::Pass& pass) {
         const Graph::Use* first = nullptr;
         const Graph::Use* depth = nullptr;
@@ -213,9 +213,9 @@ private:
         }
     }
 
-    /// What a shader stores is read in the same pass by accesses of the store's own kind alone, which a shader can
-    /// order itself. For any other GL needs a barrier in between (OpenGL 4.5 core specification, section 7.13.2), and
-    /// those stand between passes.
+    /// Checks that a pass reads its shader stores only by accesses of the same kind, which a shader can order itself.
+    /// Others need a GL barrier (OpenGL 4.5 core specification, section 7.13.2), and barriers are issued only between
+    /// passes.
     void checkStores(const std::string& subject, const Graph::Pass& pass) {
         for (const Graph::Use& store : pass.uses) {
             const AccessInfo& stored = accessInfo(store.access);
@@ -237,7 +237,7 @@ private:
                std::holds_alternative<TextureDesc>(resource(use.resource).desc);
     }
 
-    /// Whether a resource of the graph allows the access; if not, that is a fault already.
+    /// Whether a resource of the graph allows the access; if not, another check reports it.
     bool isFit(const Graph::Use& use) const {
         return use.resource < graph_.resources().size() && unfitReason(resource(use.resource).desc, use.access).empty();
     }

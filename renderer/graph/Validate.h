@@ -7,8 +7,8 @@
 
 namespace tessera::graph {
 
-/// Every fault of the declaration but cycles (see Order.h), each one line that names pass and resource, in declaration
-/// order. Passes that culling would leave out are checked too, so that a frame's options never hide a fault.
+/// Finds all faults of the declaration except cycles (Order.h), one line each with pass and resource, in declaration
+/// order. Passes that will be culled are checked too, so that a frame's options never hide a fault.
 std::vector<std::string> findFaults(const Graph& graph, const Flow& flow);
 
 } // namespace tessera::graph

@@ -6,8 +6,8 @@
 
 namespace tessera::shader {
 
-/// Follows #if ... #endif through a file, as far as includes need it: how deep a line stands, and whether it belongs to
-/// the C++ part of a header that both languages share. Unbalanced directives are left for the driver to report.
+/// Tracks #if ... #endif through a file for the expansion of includes: the nesting depth of a line, and whether it
+/// belongs to the C++ part of a header shared by both languages. The driver reports unbalanced directives.
 class Conditionals {
 public:
     void follow(const Directive& directive);
@@ -15,7 +15,7 @@ public:
     bool inCpp() const;
 
 private:
-    enum class Branch { Other, Cpp, Glsl }; ///< Cpp and Glsl: of a conditional on __cplusplus
+    enum class Branch { Other, Cpp, Glsl }; ///< Cpp and Glsl: branches of a conditional on __cplusplus
     std::vector<Branch> branches_;
 };
 

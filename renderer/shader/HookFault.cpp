@@ -35,21 +35,21 @@ bool isInName(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// Without warnings, most of which are about the program's own files. The hook's own names are as its file has them.
+/// A log without warnings, most of which concern the program's other files. Strips kHookPrefix from the hook's names.
 std::string errorsOf(std::string_view log) {
     std::string errors;
     std::istringstream lines{std::string(log)};
     for (std::string line; std::getline(lines, line);)
         if (line.find(": warning") == std::string::npos) errors += (errors.empty() ? "" : "\n") + line;
     for (std::size_t at = errors.find(kHookPrefix); at != std::string::npos; at = errors.find(kHookPrefix, at))
-        if (at == 0 || !isInName(errors[at - 1])) // the end of a file's name too has these letters
+        if (at == 0 || !isInName(errors[at - 1])) // file names may contain the prefix too
             errors.erase(at, kHookPrefix.size());
         else
             ++at;
     return errors;
 }
 
-/// Where a name stands in a line by itself, from a place on; npos: nowhere.
+/// Position of a whole-word name in a line, searched from a position on; npos: not found.
 std::size_t placeOfName(std::string_view line, std::string_view name, std::size_t from = 0) {
     for (std::size_t at = line.find(name, from); at != std::string_view::npos; at = line.find(name, at + 1)) {
         const std::size_t end = at + name.size();
@@ -58,8 +58,7 @@ std::size_t placeOfName(std::string_view line, std::string_view name, std::size_
     return std::string_view::npos;
 }
 
-/// The names that errors put in quotes, of functions without their parameters: `float f(int)' of Mesa, "f" of NVIDIA,
-/// 'f' of glslang.
+/// The names quoted in errors, functions without parameters: `float f(int)' by Mesa, "f" by NVIDIA, 'f' by glslang.
 std::vector<std::string> quotedNames(std::string_view errors) {
     std::vector<std::string> names;
     for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -78,7 +77,7 @@ std::vector<std::string> quotedNames(std::string_view errors) {
     return names;
 }
 
-/// A file's lines without comments; none where it is gone.
+/// A file's lines without comments; empty if the file is missing.
 std::vector<std::string> codeLines(const SourceTree& tree, std::string_view path) {
     std::vector<std::string> code;
     std::istringstream lines(tree.read(path).value_or(""));
@@ -90,7 +89,7 @@ std::vector<std::string> codeLines(const SourceTree& tree, std::string_view path
     return code;
 }
 
-/// The line, from 1, of the first name that the code has.
+/// Line number, from 1, of the first of the names that occurs in the code.
 std::optional<std::size_t> lineOfFirst(const std::vector<std::string>& names, const std::vector<std::string>& code) {
     for (const std::string& name : names)
         for (std::size_t i = 0; i < code.size(); ++i)
@@ -107,7 +106,7 @@ bool isAskedForAsField(const std::string& name, const std::vector<std::string>& 
     });
 }
 
-/// "HookedSurface has color, emission; HookInputs has uv; hook has timeSeconds, wind", from what declares them.
+/// "HookedSurface has color, emission; HookInputs has uv; hook has timeSeconds, wind", parsed from the declarations.
 std::string hookFields(const SourceTree& tree, const ProgramDesc& desc) {
     const std::string declared = fmt::format("{}", fmt::join(codeLines(tree, kHookInterface), "\n"));
     static const std::regex structure(R"(struct\s+(\w+)\s*\{([^}]*)\})"), field(R"((\w+)\s*;)");

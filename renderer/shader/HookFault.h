@@ -4,22 +4,22 @@
 
 #include "renderer/shader/ProgramDesc.h"
 
-/// Whether the hook of a scene (docs/hooks.md) is why a program cannot be built, and what its author is told.
+/// Detects whether a scene's hook (docs/hooks.md) breaks the build of a program, and formats the error for its author.
 namespace tessera::shader {
 
-/// The file of the hook that a program is made with; empty: it has none.
+/// The program's hook file; empty: none.
 std::string hookFileOf(const ProgramDesc& desc);
 
-/// The same program with a hook that changes nothing and without its scene's parameters. A driver that takes it and
-/// refuses the program finds fault with the hook: what is found where programs are linked has no file.
+/// The same program with an empty hook and without the scene's parameters. If it builds and the program does not, the
+/// hook is at fault. Link errors need this test, since they name no file.
 ProgramDesc withEmptyHook(const ProgramDesc& desc);
 
-/// Whether an error of a log, mapped by mapLog(), stands in the hook of the program; warnings are none.
+/// Whether a log, mapped by mapLog(), has an error in the program's hook; ignores warnings.
 bool namesHook(const ProgramDesc& desc, std::string_view log);
 
-/// What is wrong with the hook of a program, as a driver's mapped log says: the hook's file, the line of what the log
-/// names in quotes where the log itself tells none, the errors, and what to write instead. Where it names what stands
-/// behind a dot, the fields that there are.
+/// The error text for a program's hook, from the driver's mapped log: the hook's file, the errors and a remedy. If the
+/// log has no line of the hook, adds that of the first quoted name. Lists all fields if a quoted name is used as a
+/// field.
 std::string hookFaultText(const SourceTree& tree, const ProgramDesc& desc, std::string_view log);
 
 } // namespace tessera::shader

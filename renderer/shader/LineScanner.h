@@ -4,21 +4,20 @@
 
 namespace tessera::shader {
 
-/// A line of GLSL as the preprocessor sees it.
+/// The preprocessor directive of a line of GLSL.
 struct Directive {
     std::string name;      ///< "include", "ifdef", ...; empty when the line is no directive
-    std::string arguments; ///< what follows the name, comments removed, trimmed
+    std::string arguments; ///< text after the name, without comments, trimmed
 };
 
-/// Recognises directives line by line. Keeps track of block comments and of line continuations, inside which a line
-/// that looks like a directive is none.
+/// Recognises directives line by line, except inside block comments and line continuations.
 class LineScanner {
 public:
-    /// `line` without its end of line. Lines have to be given in order.
+    /// Scans a line without its line ending. Lines must be passed in order.
     Directive next(std::string_view line);
     /// True after a line inside which a block comment or a continuation is still open.
     bool isOpen() const { return inBlockComment_ || inContinuation_; }
-    /// The last line without its comments and a backslash at its end.
+    /// The last line without comments and a trailing backslash.
     const std::string& code() const { return code_; }
 
 private:

@@ -12,11 +12,11 @@
 namespace tessera::shader {
 namespace {
 
-/// How a compiler writes a source position, and the part of the match to keep after the position in our own form.
+/// A compiler's format of source positions.
 struct Dialect {
     std::regex pattern;
-    std::size_t file, line; ///< groups of the source string's number and the line
-    std::size_t severity;   ///< group of a severity that stands before the place; 0: it follows by itself
+    std::size_t file, line; ///< groups of the source string number and of the line
+    std::size_t severity;   ///< group of a severity before the position; 0: it follows the position
 };
 
 const std::array<Dialect, 3>& dialects() {
@@ -32,14 +32,14 @@ std::string mapLine(const std::string& line, std::span<const std::string> files)
     for (const Dialect& dialect : dialects()) {
         std::smatch match;
         if (!std::regex_search(line, match, dialect.pattern)) continue;
-        // More digits than any file list has entries, or any file lines, make no place.
+        // Numbers with more digits than file or line numbers have are not positions.
         if (match.length(dialect.file) > 6 || match.length(dialect.line) > 10) return line;
         const std::size_t number = std::stoull(match.str(dialect.line));
         const std::size_t file = number < kLinesAFile ? std::stoul(match.str(dialect.file)) : number / kLinesAFile;
         if (file >= files.size()) return line;
         std::string severity;
         if (dialect.severity != 0) severity = match.str(dialect.severity) == "ERROR" ? "error: " : "warning: ";
-        if (number % kLinesAFile == 0) return severity + match.suffix().str(); // lines count from 1: it tells no place
+        if (number % kLinesAFile == 0) return severity + match.suffix().str(); // lines count from 1: not a position
         return fmt::format("{}:{}: {}{}", displayPath(files[file]), number % kLinesAFile, severity,
                            match.suffix().str());
     }
@@ -67,7 +67,7 @@ std::string errorsFirst(std::string_view mappedLog) {
         lines.push_back(mappedLog.substr(0, end));
         mappedLog.remove_prefix(std::min(end + 1, mappedLog.size()));
     }
-    // With a number behind in NVIDIA's: "warning C7050: x".
+    // NVIDIA adds a number: "warning C7050: x".
     std::stable_partition(lines.begin(), lines.end(), [](std::string_view line) {
         return line.find(": warning") == std::string_view::npos || line.find(": error") != std::string_view::npos;
     });

@@ -68,7 +68,7 @@ public:
     }
 
 private:
-    /// Index of a file, read at its first request; none when there is no such file.
+    /// Index of a file, read on first use; none if it does not exist.
     std::optional<std::size_t> load(const std::string& path) {
         if (const auto known = indexOf_.find(path); known != indexOf_.end()) return known->second;
         const std::optional<std::string> text = tree_.read(path);
@@ -85,7 +85,7 @@ private:
 
     void emit(std::size_t index, bool conditional) {
         stack_.push_back(index);
-        // Copied: loading further files moves the list.
+        // Copied, since loading further files may reallocate the list.
         const File file = files_[index];
         result_.text += lineDirective(1, index);
         LineScanner scanner;
@@ -111,7 +111,7 @@ private:
         stack_.pop_back();
     }
 
-    /// Behind all else, where nothing that it defines can change what the program is made of.
+    /// Appends the hook after all other source, where its definitions cannot change the program.
     void emitHook() {
         const std::optional<std::size_t> hook = load(hookFile_);
         if (!hook)
@@ -120,9 +120,9 @@ private:
                                          hookFile_));
         std::string text;
         for (const std::string& line : files_[*hook].lines) text += line + '\n';
-        // An editor may have saved it since the scene was loaded. The empty hook is the program's own.
+        // An edit may have followed the load of the scene, so the hook is checked again, except the built-in empty one.
         if (std::filesystem::path(hookFile_).is_absolute()) text = tree_.preparedHook(hookFile_, std::move(text));
-        // The driver finds a name of a parameter that means something else in GLSL.
+        // Names the block in driver errors, e.g. about a parameter with the name of a GLSL keyword.
         result_.files.push_back(hookFile_ + " (its parameters)");
         result_.text += "#if HOOKED\n" + lineDirective(1, result_.files.size() - 1);
         result_.text += "layout(std140, binding = UNIFORM_HOOK) uniform HookBlock\n{\n    float timeSeconds;\n";
@@ -181,8 +181,8 @@ private:
     std::vector<File> files_;
     std::map<std::string, std::size_t> indexOf_;
     std::vector<std::size_t> stack_; ///< files being expanded, the entry first
-    std::set<std::size_t> certain_;  ///< #pragma once files that count whatever the conditionals say
-    std::set<std::size_t> possible_; ///< those that stand in a conditional
+    std::set<std::size_t> certain_;  ///< #pragma once files included outside of conditionals
+    std::set<std::size_t> possible_; ///< those included inside a conditional
 };
 
 } // namespace

@@ -19,8 +19,8 @@ struct ExpandedStage {
     ExpandedSource source;
 };
 
-/// The stages of a variant as the driver gets them; needs no GL, so sources can be checked offline. Throws InputError
-/// as expand() does, and when the description has neither a vertex nor a compute stage, or mixes compute with others.
+/// Expands the stages of a variant. Needs no GL context, so sources can be checked offline. Throws InputError as
+/// expand(), and if the description has neither a vertex nor a compute stage, or mixes compute with others.
 std::vector<ExpandedStage> expandStages(const SourceTree& tree, const ProgramDesc& desc);
 
 } // namespace tessera::shader

@@ -12,7 +12,7 @@
 namespace tessera::shader {
 namespace {
 
-/// Name and defines, so that two variants can be told apart in messages.
+/// Name and defines, to distinguish variants in messages.
 std::string label(const ProgramDesc& desc) {
     std::string text = desc.name;
     for (std::size_t i = 0; i < desc.defines.size(); ++i) {
@@ -34,14 +34,14 @@ bool sameText(const std::vector<ExpandedStage>& a, const std::vector<ExpandedSta
     });
 }
 
-/// When a file last changed; none where it is gone, as while an editor saves it.
+/// Time of a file's last change; none if it is missing, e.g. while an editor saves it.
 std::optional<std::filesystem::file_time_type> timeOf(const std::string& file) {
     std::error_code error;
     const auto time = std::filesystem::last_write_time(file, error);
     return error ? std::nullopt : std::optional(time);
 }
 
-/// Whether a driver that refuses the program takes it with a hook that changes nothing.
+/// Whether the program builds with an empty hook.
 bool isWholeWithEmptyHook(const SourceTree& tree, const ProgramDesc& desc) {
     const ProgramDesc empty = withEmptyHook(desc);
     try {

@@ -13,42 +13,41 @@
 
 namespace tessera::shader {
 
-/// What is wrong with the new source of a program.
+/// An error in the new source of a program.
 struct ShaderFault {
     std::string text;    ///< with file and line
-    std::string program; ///< its name and defines; empty where a source cannot even be read
+    std::string program; ///< its name and defines; empty if a source could not be expanded
 };
-/// What reading the sources again came to.
+/// The result of ProgramLibrary::reload().
 struct Reloading {
-    std::size_t programs = 0; ///< that have another form now
+    std::size_t programs = 0; ///< number of programs replaced
     std::vector<ShaderFault> faults;
 };
 
-/// Every program of the process, compiled once per distinct variant, on the context that is current at its first use.
+/// All programs of the process, compiled once per variant, on the context that is current at first use.
 class ProgramLibrary : public graph::ProgramSource {
 public:
     explicit ProgramLibrary(SourceTree tree = SourceTree());
 
-    /// Compiles at the first request. The reference holds as long as the library, also across reload(). Throws
-    /// gpu::ShaderError whose log lines name file and line, or InputError when a source is missing or the hook of the
-    /// program's scene is faulty.
+    /// Compiles on first use. The reference is valid as long as the library, also across reload(). Throws
+    /// gpu::ShaderError whose log lines name file and line, or InputError if a source is missing or the scene's hook is
+    /// faulty.
     const gpu::Program& get(const ProgramDesc& desc) override;
-    /// Issues all that are missing before collecting the first, so that drivers that can compile in parallel do. Throws
-    /// as get(), after every good one has been kept.
+    /// Compiles the missing programs, issuing all before collecting the first, so that drivers can compile in parallel.
+    /// Throws as get(), after all valid programs are stored.
     void warm(std::span<const ProgramDesc> descs);
-    /// Reads the sources again and recompiles what changed. A program whose new source is faulty keeps its last good
-    /// form.
+    /// Rereads the sources and recompiles changed programs. A program with faulty new source keeps its last working
+    /// version.
     Reloading reload();
-    /// True once after a file of the source folder changed, or a hook of a program that was asked for, faulty ones
-    /// too; embedded sources never do.
+    /// Returns true once after a change of a file in the source folder, or of a requested program's hook, even if
+    /// faulty. Embedded sources never change.
     bool sourcesChanged();
-    /// Whether there is a source folder or a hook: what sourcesChanged() looks at.
+    /// Whether sourcesChanged() watches any file: a source folder or a hook.
     bool watchesFiles() const { return !tree_.isEmbedded() || !hooks_.empty(); }
 
     const SourceTree& tree() const { return tree_; }
     std::size_t size() const { return entries_.size(); }
-    /// How many programs reload() has given another form so far. What is kept of their results is out of date when this
-    /// grows.
+    /// Number of programs that reload() has replaced so far. Cached results of programs are stale when this grows.
     std::size_t reloaded() const { return reloaded_; }
 
 private:
@@ -61,8 +60,8 @@ private:
         gpu::Program program;
     };
     SourceTree tree_;
-    std::optional<Time> treeChange_;                        ///< as sourcesChanged() saw it last
-    std::map<std::string, std::optional<Time>> hooks_;      ///< the same of their files; none: it was not there
+    std::optional<Time> treeChange_;                        ///< the newest change at the last sourcesChanged()
+    std::map<std::string, std::optional<Time>> hooks_;      ///< the same by hook file; none: it was missing
     std::map<std::string, std::unique_ptr<Entry>> entries_; ///< by ProgramDesc::key()
     std::size_t reloaded_ = 0;
 };

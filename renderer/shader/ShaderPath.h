@@ -5,12 +5,11 @@
 
 namespace tessera::shader {
 
-/// A shader's path as people and editors read it: "shaders/lib/reflectance/brdf.glsl"; a
-/// scene's hook, whose path is absolute, is called by that.
+/// A shader's path in messages: "shaders/lib/reflectance/brdf.glsl"; a scene's hook keeps its absolute path.
 std::string displayPath(std::string_view path);
 
-/// Where an #include may mean, in the order of trying: below shaders/, below the folder that holds shaders/, beside the
-/// including file. Paths that leave shaders/ are none of them.
+/// Candidate paths of an #include, in search order: below shaders/, below the folder that holds shaders/, beside the
+/// including file. Excludes paths outside of shaders/.
 std::vector<std::string> includeCandidates(const std::string& wanted, const std::string& including);
 
 } // namespace tessera::shader

@@ -60,7 +60,7 @@ std::string SourceTree::describe() const {
 std::optional<std::filesystem::file_time_type> SourceTree::newestChange() const {
     if (isEmbedded()) return std::nullopt;
     std::optional<std::filesystem::file_time_type> newest;
-    // Files may vanish while editors save them; what cannot be asked now is asked again next time.
+    // Files may vanish while editors save them; errors are ignored, and the next call tries again.
     std::error_code error;
     for (std::filesystem::recursive_directory_iterator entry(folder_, error), end; !error && entry != end;
          entry.increment(error)) {

@@ -8,8 +8,8 @@
 
 namespace tessera::shader {
 
-/// The shader files by their path below shaders/, e.g. "lib/reflectance/brdf.glsl": those compiled into the library, or
-/// a folder's.
+/// Shader files by their path below shaders/, e.g. "lib/reflectance/brdf.glsl": embedded in the library, or read from a
+/// folder.
 class SourceTree {
 public:
     /// The folder named by the environment variable TESSERA_SHADERS if that is set, else the embedded files.
@@ -19,11 +19,11 @@ public:
     /// The embedded files, regardless of the environment.
     static SourceTree embedded();
 
-    /// A file as it is now (folders are read anew each time, so edits show; so are hooks, by their absolute paths);
-    /// none when there is no such file. Throws InputError when it exists and cannot be read.
+    /// Reads a file; none if it does not exist. Files of folders, and hooks by their absolute paths, are read anew each
+    /// time, so edits take effect. Throws InputError if an existing file cannot be read.
     std::optional<std::string> read(std::string_view path) const;
     bool isEmbedded() const { return folder_.empty(); }
-    /// "embedded shaders" or the folder, for messages.
+    /// "the embedded shaders" or the folder, for messages.
     std::string describe() const;
     /// Sets the function that checks and rewrites each hook for programs. `prepare` receives the file and its text,
     /// returns the text for programs, and throws InputError for forbidden constructs.
@@ -32,7 +32,7 @@ public:
     std::string preparedHook(const std::string& file, std::string text) const {
         return prepareHook_ ? prepareHook_(file, text) : text;
     }
-    /// When a file of the folder last changed, so that a viewer knows when to reload; none for embedded files.
+    /// Time of the last change in the folder, for viewers that reload; none for embedded files.
     std::optional<std::filesystem::file_time_type> newestChange() const;
 
 private:

@@ -7,7 +7,7 @@
 #include "scenes/LookAt.h"
 #include "scenes/Scene.h"
 
-/// Short forms in which the built-in scenes are written down.
+/// Shorthand functions for defining the built-in scenes.
 namespace tessera::scenes::builtin {
 
 inline int addImage(Scene& scene, Image image) {
@@ -93,7 +93,7 @@ inline void addDirectionalLight(Scene& scene, const std::string& name, const glm
     scene.lights.push_back(std::move(light));
 }
 
-/// A light with an area at a place, turned towards a target. The reference is good until the next light is added.
+/// Adds an area light that faces a target. The reference is valid until the next light is added.
 inline Light& addAreaLight(Scene& scene, const std::string& name, LightType type, const glm::dvec3& positionWS,
                            const glm::dvec3& targetWS, const glm::vec3& color, float radiance) {
     Light& light = scene.lights.emplace_back();
@@ -107,7 +107,7 @@ inline Light& addAreaLight(Scene& scene, const std::string& name, LightType type
     return light;
 }
 
-/// Scenes with a few placed lights keep the first `options.lights` of them.
+/// Keeps the first `options.lights` of a scene's few placed lights.
 inline void keepFirstLights(Scene& scene, const LoadOptions& options) {
     if (options.lights && static_cast<std::size_t>(*options.lights) < scene.lights.size()) {
         scene.lights.resize(static_cast<std::size_t>(*options.lights));

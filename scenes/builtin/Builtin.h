@@ -10,14 +10,14 @@ namespace tessera::scenes::builtin {
 Scene makeHall(const LoadOptions& options, LoadLedger& ledger);
 /// Spheres in rows of growing metalness and columns of growing roughness.
 Scene makeSpheres(const LoadOptions& options, LoadLedger& ledger);
-/// Every material model and layer, with pictures and without, on three steps.
+/// Every material model and layer, with and without textures, on three steps.
 Scene makeModels(const LoadOptions& options, LoadLedger& ledger);
-/// The benchmark scene: 256 spheres and boxes, `lights` point lights (256 by default), every number of it specified.
+/// The benchmark scene: 256 spheres and boxes, `lights` point lights (256 by default), every number specified.
 Scene makeLattice(const LoadOptions& options, LoadLedger& ledger);
 /// A closed room whose radiance is known in closed form (Room.h); `lights` lights share the position and intensity of
 /// the one lamp.
 Scene makeRoom(const LoadOptions& options, LoadLedger& ledger);
-/// Soft shadows whose shares of light are known in closed form (ShadowTruth.h).
+/// Soft shadows whose visible fractions of light are known in closed form (ShadowTruth.h).
 Scene makeShadowTruth(const LoadOptions& options, LoadLedger& ledger);
 Scene makeHeadSkin(const LoadOptions& options, LoadLedger& ledger);
 Scene makeHeadMarble(const LoadOptions& options, LoadLedger& ledger);

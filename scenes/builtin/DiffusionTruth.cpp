@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPlatesY = 4.0;
 
-/// Of the profile `skin`, in the scene's metres; their weights sum to 1.
+/// Visits the Gaussians of the profile `skin`, in the scene's metres; their weights sum to 1.
 template <typename Visit>
 void forEachGaussian(Visit visit) {
     const DiffusionProfile& profile = namedProfiles()[0].profile;
@@ -24,7 +24,7 @@ void forEachGaussian(Visit visit) {
     }
 }
 
-/// A square with a round hole in its middle, seen from above; of so many corners that its area is right to 2e-5.
+/// A square with a round hole in its middle, facing up, with enough corners for an area exact to 2e-5.
 Mesh plateWithHole(const glm::dvec3& middleWS, double halfSide, double radius) {
     constexpr int kCorners = 512;
     const double outgrown = radius * (1.0 + std::pow(std::numbers::pi / kCorners, 2.0) / 3.0);
@@ -55,14 +55,14 @@ glm::dvec3 spreadStep(double beyondMetres) {
 }
 
 glm::dvec3 spreadDot(double distanceMetres) {
-    // Of the dot's chords across the line to its middle: a Gaussian along it, times what an error function leaves of it
-    // across.
+    // Integrates over the dot's chords perpendicular to the line to its middle: a Gaussian along the line times an
+    // error function across it.
     constexpr int kChords = 128;
     glm::dvec3 share(0.0);
     forEachGaussian([&](double sigma, const glm::dvec3& weight) {
         double sum = 0.0;
         for (int i = 0; i < kChords; ++i) {
-            // By angles, so that chords are close where they grow fast.
+            // Uniform in angle, so that chords are dense where their length changes fast.
             const double angle = std::numbers::pi * (i + 0.5) / kChords;
             const double along = kTruthDotRadiusMetres * std::cos(angle);
             const double half = kTruthDotRadiusMetres * std::sin(angle);
@@ -93,14 +93,14 @@ Scene makeDiffusionTruth(const LoadOptions& options, LoadLedger&) {
         const char* const name = x < 0.0 ? "half lit" : "dot";
         addNode(scene, name, glm::dmat4(1.0), {{addMesh(scene, name, std::move(square)), spreading}});
     }
-    // The same edge where no light spreads.
+    // The same edge without subsurface scattering.
     Mesh strip;
     appendQuad(strip, {kTruthEdgeX - 0.5, 0.0, 0.72}, {kTruthEdgeX + 0.5, 0.0, 0.72}, {kTruthEdgeX + 0.5, 0.0, 0.56},
                {kTruthEdgeX - 0.5, 0.0, 0.56});
     addNode(scene, "half lit, without", glm::dmat4(1.0),
             {{addMesh(scene, "half lit, without", std::move(strip)),
               addMaterial(scene, lambert("paper", glm::vec3(0.9f)))}});
-    // Above what the camera sees.
+    // Above the camera's view.
     Mesh half;
     appendQuad(half, {kTruthEdgeX - 1.0, kPlatesY, 1.0}, {kTruthEdgeX, kPlatesY, 1.0}, {kTruthEdgeX, kPlatesY, -1.0},
                {kTruthEdgeX - 1.0, kPlatesY, -1.0});

@@ -3,8 +3,8 @@
 
 #include "scenes/Image.h"
 
-/// The built-in environments; their table stands in scenes/Environment.cpp. All are the same on every machine. `told`
-/// is that of drawRadiance().
+/// The built-in environments, listed in scenes/Environment.cpp. All are the same on every machine. `told` is the
+/// progress callback of drawRadiance().
 namespace tessera::scenes::builtin {
 
 inline constexpr int kMapWidth = 1024, kMapHeight = 512; ///< texels

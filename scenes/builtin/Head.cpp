@@ -15,14 +15,14 @@ namespace {
 constexpr double kPlinthTopY = 0.12;
 constexpr double kBustHeightMetres = 0.6;
 
-/// A bust, and how finely it is made.
+/// Material and resolution of a bust.
 struct BustKind {
     const char* material;
     BustPaint paint = BustPaint::WeatheredMarble;
     int columns = 168, rows = 112, mapTexels = 1024;
 };
 
-/// Returns its material.
+/// Adds the bust and returns its material.
 int addBust(Scene& scene, const BustKind& kind) {
     Bust bust = makeBust(kind.columns, kind.rows, kBustHeightMetres, kind.mapTexels, kind.paint);
     Material skin = microfacet(kind.material, glm::vec3(1.0f), 1.4f, 0.35f);
@@ -38,7 +38,7 @@ int addBust(Scene& scene, const BustKind& kind) {
     return material;
 }
 
-/// The scan of TESSERA_ASSETS, of plain stone where the bust is of polished marble, or else the bust. Returns its
+/// Adds the scan of TESSERA_ASSETS, in plain stone if the bust is of polished marble, or else the bust. Returns its
 /// material.
 int addHead(Scene& scene, const BustKind& kind, const LoadOptions& options, LoadLedger& ledger) {
     const std::optional<std::filesystem::path> scan = options.useAssets ? headScanFolder() : std::nullopt;
@@ -66,7 +66,7 @@ void addSurroundings(Scene& scene) {
     addNode(scene, "floor", glm::dmat4(1.0),
             {{addMesh(scene, "floor", std::move(floor)),
               addMaterial(scene, metallicRoughness("floor", {0.16f, 0.11f, 0.08f}, 0.0f, 0.38f))}});
-    // The wall curves into nothing sharp: a plain backdrop 1.4 m behind.
+    // A plain backdrop 1.4 m behind.
     Mesh wall;
     appendQuad(wall, {-6.0, 0.0, -1.4}, {6.0, 0.0, -1.4}, {6.0, 5.0, -1.4}, {-6.0, 5.0, -1.4});
     addNode(scene, "wall", glm::dmat4(1.0),
@@ -102,7 +102,7 @@ void addStudioLights(Scene& scene) {
 
 constexpr int kFineColumns = 252, kFineRows = 168, kFineMapTexels = 1536;
 
-/// Portraits of a surface that light enters, with a strong light behind it.
+/// Portraits with subsurface scattering and a strong light behind the head.
 void addSkinSurroundings(Scene& scene, const LoadOptions& options) {
     addSurroundings(scene);
     const glm::dvec3 faceWS(0.0, 0.56, 0.0);
@@ -156,8 +156,8 @@ Scene makeHeadMarble(const LoadOptions& options, LoadLedger& ledger) {
     marble.ior = 1.5f;
     marble.subsurface.method = SubsurfaceMethod::TextureSpaceDiffusion;
     marble.subsurface.profile = namedProfiles()[1].profile;
-    // Not measured: half of what the dipole of the profile's source decays by in red and 0.4 of it in green and blue,
-    // sqrt(3 absorption extinction) = 0.12, 0.18 and 0.25, so that ears glow.
+    // Not measured: half (red) and 0.4 (green and blue) of the decay of the dipole in the profile's source, sqrt(3
+    // absorption extinction) = 0.12, 0.18 and 0.25, so that ears glow.
     marble.subsurface.absorptionPerMillimetre = {0.06f, 0.075f, 0.1f};
     addSkinSurroundings(scene, options);
     return scene;

@@ -12,7 +12,7 @@ namespace tessera::scenes::builtin {
 /// The folder LeePerrySmith below the one the environment variable TESSERA_ASSETS names, if it holds head.obj.
 std::optional<std::filesystem::path> headScanFolder();
 
-/// What the scanned head is drawn with: its albedo and specular maps, or one linear colour instead of both.
+/// Colours of the scanned head: none for its albedo and specular maps, or one linear colour.
 using ScanPaint = std::optional<glm::vec3>;
 
 /// Adds the scanned head (Infinite Realities, CC BY 3.0) with its object-space normal map, painted, standing on

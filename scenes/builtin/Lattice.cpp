@@ -9,8 +9,8 @@
 #include "scenes/builtin/Random.h"
 #include "scenes/builtin/Shapes.h"
 
-/// Every number here is part of the benchmark's definition, "lattice" version 1; figures of different programs are
-/// compared on it.
+/// Every number here is part of the definition of the benchmark "lattice", version 1, which compares different
+/// programs.
 namespace tessera::scenes::builtin {
 namespace {
 
@@ -68,7 +68,7 @@ void addSolids(Scene& scene) {
     }
 }
 
-/// Intensity of each of `count` lights: straight lines in log-log between the specified counts.
+/// Intensity of each of `count` lights: interpolated linearly in log-log between the specified counts.
 double intensityCandela(int count) {
     struct Point {
         double lights;

@@ -26,8 +26,8 @@ std::byte toByte(double value) {
     return static_cast<std::byte>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
 }
 
-/// The transfer function by table: a byte's step is at least 3e-4 wide in linear values, so 16384 entries lose nothing
-/// visible.
+/// The transfer function as a table: a step of a byte is at least 3e-4 wide in linear values, so 16384 entries lose
+/// nothing visible.
 std::byte toSrgbByte(double linear) {
     constexpr int kEntries = 16384;
     static const auto table = [] {

@@ -4,21 +4,20 @@
 
 #include "scenes/Scene.h"
 
-/// Pictures drawn by functions of their texels (x, y), which are called from several threads.
+/// Images drawn by functions of their texels (x, y), which are called from several threads.
 namespace tessera::scenes::builtin {
 
-/// An 8-bit picture of linear colours; RGB is stored with the sRGB transfer function (IEC 61966-2-1), opacity is 1.
+/// An 8-bit image of linear colours; RGB is stored with the sRGB transfer function (IEC 61966-2-1), opacity is 1.
 Image drawColors(const std::string& name, int width, int height,
                  const std::function<glm::dvec3(int, int)>& linearColor);
 
-/// An 8-bit picture that stores 0..1 as it is, opacity 1.
+/// An 8-bit image that stores 0..1 linearly, opacity 1.
 Image drawValues(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& value);
 
-/// A 16-bit picture of unit vectors, stored as n/2 + 1/2.
+/// A 16-bit image of unit vectors, stored as n/2 + 1/2.
 Image drawNormals(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& normal);
 
-/// A picture of linear numbers in fp32, opacity 1. Unless it is empty, `told` is called with the share that is done,
-/// from any thread.
+/// An image of linear fp32 values, opacity 1. `told`, unless empty, is called from any thread with the fraction done.
 Image drawRadiance(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& radiance,
                    const std::function<void(double)>& told = {});
 

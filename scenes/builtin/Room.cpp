@@ -27,11 +27,11 @@ const std::array<RoomFinish, kRoomMaterialCount> kRoomFinishes = {{
 
 namespace {
 
-/// Patches stand this far off their wall; far more than depth resolves, too little to be seen from the side.
+/// Distance of patches from their wall: far more than depth resolves, too small to be visible from the side.
 constexpr double kPatchOffsetMetres = 0.01;
 const glm::dvec3 kPlinthHalfMetres(0.4, 0.3, 0.25);
 
-/// A rectangle that faces `normalWS`: its middle and its half sides, normal = normalize(cross(halfU, halfV)).
+/// A rectangle by its middle and its half sides; its normal is normalize(cross(halfU, halfV)).
 struct Rectangle {
     RoomMaterial material;
     glm::dvec3 centerWS;
@@ -58,7 +58,7 @@ glm::dmat4 worldFromPlinth() {
     return glm::scale(matrix, kPlinthHalfMetres);
 }
 
-/// Where the ray enters the plinth, as its share of `directionWS`, and the normal there.
+/// The ray parameter, in lengths of `directionWS`, at which the ray enters the plinth, and the normal there.
 std::optional<std::pair<double, glm::dvec3>> hitPlinth(const glm::dvec3& originWS, const glm::dvec3& directionWS) {
     const glm::dmat4 plinthFromWorld = glm::inverse(worldFromPlinth());
     const glm::dvec3 origin(plinthFromWorld * glm::dvec4(originWS, 1.0));

@@ -4,7 +4,7 @@
 
 #include <glm/glm.hpp>
 
-/// The built-in scene `room` in numbers: a closed room and one lamp, where the radiance at every point is known.
+/// Reference values of the built-in scene `room`: a closed room and one lamp, with known radiance at every point.
 namespace tessera::scenes::builtin {
 
 enum class RoomMaterial {
@@ -28,7 +28,7 @@ struct RoomFinish {
     glm::vec3 emissive; ///< radiance
     bool perSteradian;  ///< whether the model divides the colour by pi
 };
-/// By RoomMaterial. The numbers are exact in single precision, so that nothing is lost on the way to a GPU.
+/// By RoomMaterial. The numbers are exact in fp32, so that a GPU gets the same values.
 extern const std::array<RoomFinish, kRoomMaterialCount> kRoomFinishes;
 
 inline constexpr glm::dvec3 kRoomLampWS{0.0, 1.5, 0.0};
@@ -43,7 +43,7 @@ struct RoomPoint {
     glm::dvec3 normalWS; ///< unit, into the room
     RoomMaterial material;
 };
-/// What a ray from inside the room sees; nothing only when it starts outside.
+/// The first hit of a ray from inside the room; none only if it starts outside.
 std::optional<RoomPoint> roomPointAlong(const glm::dvec3& originWS, const glm::dvec3& directionWS);
 
 } // namespace tessera::scenes::builtin

@@ -13,13 +13,13 @@
 namespace tessera::scenes::builtin {
 namespace {
 
-/// The part of a unit circle beyond a chord at `distance` from its middle, -1 .. 1.
+/// Fraction of a unit disk's area beyond a chord at `distance` from its middle, -1 .. 1.
 double segmentShare(double distance) {
     const double d = std::clamp(distance, -1.0, 1.0);
     return (std::acos(d) - d * std::sqrt(1.0 - d * d)) / std::numbers::pi;
 }
 
-/// The area in which two circles overlap.
+/// Area of the overlap of two circles.
 double overlap(double a, double b, double distance) {
     if (distance >= a + b) return 0.0;
     const double smaller = std::min(a, b);
@@ -30,7 +30,7 @@ double overlap(double a, double b, double distance) {
     return std::numbers::pi * (a * a * segmentShare(toChordA / a) + b * b * segmentShare(toChordB / b));
 }
 
-/// The plane through the point and the plate's edge meets the disk, which faces the point, in a chord.
+/// Visible fraction of the lamp's disk: the plane through the point and the plate's edge meets it in a chord.
 double lampShare(const glm::dvec3& groundWS, double radiusMetres) {
     const glm::dvec3 toLamp = kTruthLampWS - groundWS;
     const glm::dvec3 toEdge = glm::dvec3(kTruthPlateEdgeX, kTruthPlateY, groundWS.z) - groundWS;
@@ -50,7 +50,7 @@ double sunShare(const glm::dvec3& groundWS, double tangent) {
            overlap(tangent, kTruthDiskRadiusMetres / ahead, aside / ahead) / (std::numbers::pi * tangent * tangent);
 }
 
-/// A disk of so many corners that its area is that of a circle to 7e-6.
+/// A disk with enough corners that its area is that of a circle to 7e-6.
 Mesh disk(double radiusMetres) {
     constexpr int kCorners = 1024;
     Mesh mesh;

@@ -8,7 +8,7 @@ namespace tessera::scenes::builtin {
 namespace {
 
 using std::numbers::pi;
-/// A triangle with a smaller doubled area, in m^2, is the collapsed side of a pole.
+/// Triangles with a smaller doubled area, in m^2, are degenerate, as at poles.
 constexpr double kNoArea = 1e-9;
 
 std::uint32_t appendVertex(Mesh& mesh, const SurfacePoint& point) {
@@ -18,7 +18,7 @@ std::uint32_t appendVertex(Mesh& mesh, const SurfacePoint& point) {
     return static_cast<std::uint32_t>(mesh.positionsOS.size() - 1);
 }
 
-/// Adds the triangle, turned so that its front is where the normals point.
+/// Adds the triangle with its front on the side of the normals.
 void appendTriangle(Mesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const glm::dvec3 pa(mesh.positionsOS[a]);
     const glm::dvec3 frontOS = glm::cross(glm::dvec3(mesh.positionsOS[b]) - pa, glm::dvec3(mesh.positionsOS[c]) - pa);
@@ -182,7 +182,7 @@ void appendArchedWall(Mesh& mesh, const ArchedWall& wall) {
 void appendMesh(Mesh& mesh, const Mesh& part, const glm::dmat4& meshFromPart) {
     const glm::dmat3 linear(meshFromPart);
     const double orientation = glm::determinant(linear) < 0.0 ? -1.0 : 1.0;
-    // Cofactors: what carries normals, up to a factor that is positive for proper and negative for mirroring matrices.
+    // The cofactor matrix transforms normals, up to a factor: positive for proper, negative for mirroring matrices.
     const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                glm::cross(linear[0], linear[1]));
     const auto first = static_cast<std::uint32_t>(mesh.positionsOS.size());

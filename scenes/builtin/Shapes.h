@@ -4,8 +4,8 @@
 #include "scenes/Scene.h"
 #include "scenes/builtin/Profile.h"
 
-/// A small kit of surfaces. Each function adds to a mesh: unit normals, texture coordinates in metres of surface (or as
-/// said) and triangles that run counter-clockwise seen from the side the normals point to.
+/// Procedural surfaces. Each function adds to a mesh: unit normals, texture coordinates in metres of surface (unless
+/// stated otherwise) and triangles that run counter-clockwise seen from the side the normals point to.
 namespace tessera::scenes::builtin {
 
 struct SurfacePoint {
@@ -20,7 +20,7 @@ void appendPatch(Mesh& mesh, int stepsU, int stepsV, const std::function<Surface
 /// A flat quadrangle, its corners counter-clockwise seen from the front.
 void appendQuad(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
 
-/// An axis-aligned box with flat sides, seen from outside.
+/// An axis-aligned box with flat sides, facing outwards.
 void appendBox(Mesh& mesh, const glm::dvec3& minOS, const glm::dvec3& maxOS);
 
 /// A sphere with poles on Y and slice 0 at +X, (slices + 1) x (stacks + 1) vertices; texture coordinates 0..1.
@@ -49,7 +49,7 @@ struct ArchedWall {
     double sillY = 0.0;             ///< == bottomY: the opening reaches the ground
     double springY = 3.0;           ///< where the round head begins
     double depthMetres = 0.5;
-    bool back = true; ///< whether the back is seen
+    bool back = true; ///< whether the back is visible
     bool soffit = true;
     int archSteps = 24;
 };

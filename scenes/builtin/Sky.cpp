@@ -12,9 +12,9 @@
 #include "scenes/builtin/Environments.h"
 #include "scenes/builtin/Pictures.h"
 
-/// Light scattered once in the air, by numbers of Bruneton and Neyret 2008, "Precomputed Atmospheric Scattering", and
-/// Hillaire 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", whose sum of all further
-/// orders is added. Lengths in kilometres.
+/// Single scattering of light in the air, with the constants of Bruneton and Neyret 2008, "Precomputed Atmospheric
+/// Scattering", and Hillaire 2020, "A Scalable and Production Ready Sky and Atmosphere Rendering Technique", plus the
+/// latter's sum of all higher orders. Lengths in kilometres.
 namespace tessera::scenes::builtin {
 namespace {
 
@@ -28,7 +28,7 @@ constexpr double kOzoneHeight = 25.0, kOzoneHalfWidth = 15.0;
 const glm::dvec3 kGroundAlbedo(0.28, 0.27, 0.25);
 
 constexpr double kSunElevation = 38.0 * pi / 180.0, kSunRadius = 0.004675; // radians
-constexpr double kSunIrradiance = 4.0; // above the air: a white wall in the sun has a radiance near 1
+constexpr double kSunIrradiance = 4.0; // above the air: a sunlit white wall has a radiance near 1
 /// Towards the sun: front left of a camera that looks along -(1, 0.7, 1).
 glm::dvec3 toSun() {
     const glm::dvec2 level = std::cos(kSunElevation) * glm::normalize(glm::dvec2(0.35, 1.0));
@@ -50,7 +50,7 @@ Air airAt(double height) {
     return air;
 }
 
-/// From a place at this distance of the planet's centre, in a direction with this cosine to the zenith.
+/// Distance to a sphere from a point at `radius` from the planet's centre, along a ray at `cosine` to the zenith.
 double toSphere(double radius, double cosine, double sphere) {
     const double discriminant = radius * radius * (cosine * cosine - 1.0) + sphere * sphere;
     return std::max(0.0, -radius * cosine + std::sqrt(std::max(discriminant, 0.0)));
@@ -63,14 +63,14 @@ double toGround(double radius, double cosine) {
     return std::max(0.0, -radius * cosine - std::sqrt(std::max(discriminant, 0.0)));
 }
 
-/// Share of the sun's light that arrives there; none in the planet's shadow.
+/// Transmittance of sunlight to a point; 0 in the planet's shadow.
 glm::dvec3 sunlight(double radius, double cosine) {
     if (meetsGround(radius, cosine)) return glm::dvec3(0.0);
     constexpr int kSteps = 40;
     const double length = toSphere(radius, cosine, kAirRadius);
     glm::dvec3 depth(0.0);
     for (int i = 0; i < kSteps; ++i) {
-        // Finer near the ground, where the air is.
+        // Finer near the ground, where the air is dense.
         const double begin = std::pow(double(i) / kSteps, 2.0), end = std::pow((i + 1.0) / kSteps, 2.0);
         const double at = 0.5 * (begin + end) * length;
         const double r = std::sqrt(radius * radius + at * at + 2.0 * radius * at * cosine);
@@ -79,7 +79,7 @@ glm::dvec3 sunlight(double radius, double cosine) {
     return glm::exp(-depth);
 }
 
-/// A table over height and the sun's cosine to the zenith, from `low` to `high`, interpolated.
+/// A table over height and the sun's cosine to the zenith, from `low` to `high`, looked up bilinearly.
 class Table {
 public:
     template <typename Function>
@@ -115,8 +115,8 @@ private:
     std::vector<glm::dvec3> values_;
 };
 
-/// Calls `visit(radius, cosine of the sun there, share of light that reaches the eye, length)` along a ray through the
-/// air.
+/// Calls `visit(radius, cosine of the sun there, length)` for steps of a ray through the air; the length is weighted by
+/// the transmittance to the eye.
 template <typename Visitor>
 void alongRay(const glm::dvec3& direction, double radius, const glm::dvec3& sun, int steps, const Visitor& visit) {
     const double cosine = direction.y;
@@ -133,8 +133,7 @@ void alongRay(const glm::dvec3& direction, double radius, const glm::dvec3& sun,
     }
 }
 
-/// Source: Hillaire 2020, section 5.5: light of a sun of irradiance 1 that was scattered twice or more, as if it came
-/// evenly from everywhere.
+/// Light scattered twice or more, as isotropic, for a sun of irradiance 1. Source: Hillaire 2020, section 5.5.
 glm::dvec3 scatteredAgain(double radius, double cosine, const Table& sunlit) {
     constexpr int kSide = 8, kSteps = 20;
     const glm::dvec3 sun(std::sqrt(std::max(0.0, 1.0 - cosine * cosine)), cosine, 0.0);
@@ -169,18 +168,18 @@ public:
         groundRadiance_ = kGroundAlbedo / pi * groundIrradiance();
     }
 
-    /// Light from the air towards the eye but for the phase functions, and the share of light that comes through.
+    /// In-scattered light towards the eye without the phase functions, and the transmittance (`share`).
     struct Airlight {
         glm::dvec3 rayleigh{0.0}, mie{0.0}, again{0.0}, share{1.0};
     };
-    /// Along all directions of an elevation: it hardly changes with the azimuth, so few directions tell all.
+    /// Airlight of all directions of an elevation, interpolated from few, since it hardly changes with the azimuth.
     class Ring {
     public:
         Ring(const Sky& sky, double upward) : sky_(sky) {
             for (int i = 0; i < int(lights_.size()); ++i)
                 lights_[std::size_t(i)] = sky.airlight(sky.ringDirection(upward, i / kCells * 2.0 - 1.0));
         }
-        /// Without the sun's disk, in a direction of this elevation.
+        /// Radiance in a direction of this elevation, without the sun's disk.
         glm::dvec3 radiance(const glm::dvec3& direction) const {
             const double sunward = sky_.sunwardOf(direction);
             const double place = 0.5 * (sunward + 1.0) * kCells,
@@ -197,7 +196,7 @@ public:
         const Sky& sky_;
         std::array<Airlight, std::size_t(kCells) + 1> lights_;
     };
-    /// Of the sun's disk, seen from the ground.
+    /// Radiance of the sun's disk, seen from the ground.
     glm::dvec3 sunRadiance() const {
         const double solidAngle = 2.0 * pi * (1.0 - std::cos(kSunRadius));
         return kSunIrradiance / solidAngle * sunlight(kEye, sun_.y);
@@ -206,10 +205,10 @@ public:
 
 private:
     static constexpr double kEye = kGroundRadius + kEyeHeight;
-    /// How far the zenith turns along a ray through the air at the most: a level one leaves it after 10 degrees.
+    /// Bound on how far the zenith turns along a ray through the air: a level ray leaves it after 10 degrees.
     static constexpr double kFarthest = 15.0 * pi / 180.0;
 
-    /// The cosine of a direction's azimuth from the sun's.
+    /// Cosine of a direction's azimuth from the sun's.
     double sunwardOf(const glm::dvec3& direction) const {
         const glm::dvec2 level(direction.x, direction.z);
         const double length = glm::length(level);
@@ -252,12 +251,12 @@ private:
         return light;
     }
 
-    /// Of level ground, by the sun and the sky.
+    /// Irradiance of level ground by the sun and the sky.
     glm::dvec3 groundIrradiance() const {
         glm::dvec3 irradiance = kSunIrradiance * sun_.y * sunlight(kEye, sun_.y);
         constexpr int kRows = 16, kColumns = 32;
         for (int i = 0; i < kRows * kColumns; ++i) {
-            // Even in the square of the sine: each has the same part in the irradiance.
+            // Uniform in the square of the sine: all samples contribute equally to the irradiance.
             const double sine2 = (i / kColumns + 0.5) / kRows, turn = 2.0 * pi * (i % kColumns + 0.5) / kColumns;
             const double level = std::sqrt(sine2);
             const glm::dvec3 direction(level * std::cos(turn), std::sqrt(1.0 - sine2), level * std::sin(turn));
@@ -271,7 +270,7 @@ private:
     glm::dvec3 groundRadiance_{0.0};
 };
 
-/// Share of a texel that the sun's disk covers.
+/// Fraction of a texel that the sun's disk covers.
 double sunShare(int x, int y, const glm::dvec3& sun) {
     constexpr int kSide = 16;
     int inside = 0;
@@ -290,7 +289,7 @@ Image makeSky(const std::function<void(double)>& told) {
     const glm::dvec3 sunRadiance = sky.sunRadiance();
     std::vector<std::optional<Sky::Ring>> rings(kMapHeight);
     tbb::parallel_for(0, kMapHeight, [&](int y) {
-        if (told) told(0.0); // which may end it
+        if (told) told(0.0); // may throw to cancel
         rings[std::size_t(y)].emplace(sky, directionInMap({0.5, (y + 0.5) / kMapHeight}).y);
     });
     const auto radiance = [&](int x, int y) {

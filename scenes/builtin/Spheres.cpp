@@ -12,7 +12,7 @@ constexpr int kMetalnessSteps = 5;
 constexpr double kRadiusMetres = 0.42;
 constexpr double kSphereSpacingMetres = 1.0;
 
-/// Spheres stand in rising rows, the dielectric one in front, so that none hides another.
+/// Spheres in rising rows, the dielectric ones in front, so that none occludes another.
 void addSpheres(Scene& scene) {
     Mesh sphere;
     appendSphere(sphere, glm::dvec3(0.0), kRadiusMetres, 64, 40);

@@ -8,20 +8,20 @@
 namespace tessera::scenes::builtin {
 namespace {
 
-/// A soft box: a rectangle in the plane a metre ahead in its direction, brightest in the middle.
+/// A soft box: a rectangle in the plane 1 m ahead in its direction, brightest in the middle.
 struct Box {
     glm::dvec3 direction;
     glm::dvec2 halfSizeMetres;
-    double edgeMetres; ///< over which it fades
+    double edgeMetres; ///< width of the fade at its edges
     glm::dvec3 radiance;
 };
 
-// Azimuths are those of a camera that looks along -(1, 0.7, 1): its left is (-1, 0, 1). No box is in its picture.
+// Azimuths are for a camera that looks along -(1, 0.7, 1): its left is (-1, 0, 1). No box is in its view.
 const Box kBoxes[] = {
     {{-0.10, 0.95, 1.25}, {0.56, 0.44}, 0.05, {5.6, 5.2, 4.7}},    // key, front left above
     {{1.35, 0.40, -0.10}, {0.75, 0.85}, 0.30, {0.85, 0.90, 0.98}}, // fill, right
-    {{-1.28, 0.45, 0.12}, {0.13, 0.60}, 0.04, {4.6, 4.8, 5.2}},    // rim, left of the picture
-    {{0.45, 0.50, -1.25}, {0.11, 0.52}, 0.04, {3.4, 3.5, 3.7}},    // rim, right of the picture
+    {{-1.28, 0.45, 0.12}, {0.13, 0.60}, 0.04, {4.6, 4.8, 5.2}},    // rim, left of the image
+    {{0.45, 0.50, -1.25}, {0.11, 0.52}, 0.04, {3.4, 3.5, 3.7}},    // rim, right of the image
     {{0.0, 1.0, 0.0}, {0.42, 0.42}, 0.20, {1.1, 1.1, 1.15}},       // above
 };
 
@@ -45,9 +45,9 @@ glm::dvec3 boxRadiance(const Box& box, const glm::dvec3& direction) {
 
 glm::dvec3 studioRadiance(const glm::dvec3& direction) {
     const double up = direction.y;
-    // Walls, a floor and between them a sweep without a corner: darker than what is lit by the boxes, so that a model
-    // stands out. Straight below the floor is as bright as one of albedo 0.2 under the boxes, so that metal is not
-    // black where it faces down.
+    // Walls and a floor with a smooth sweep between them, darker than what the boxes light, so that a model stands out.
+    // Straight below, the floor is as bright as one of albedo 0.2 under the boxes, so that metal facing down is not
+    // black.
     const glm::dvec3 wall =
         glm::mix(glm::dvec3(0.11, 0.11, 0.113), glm::dvec3(0.055, 0.055, 0.058), smoothStep(0.0, 1.0, up));
     const glm::dvec3 floor =

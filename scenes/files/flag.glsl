@@ -1,5 +1,5 @@
 // A striped flag in the wind: its left edge is held, and waves run to the right and grow.
-const float kWaves = 7.0;   // radians a metre
+const float kWaves = 7.0;   // radians per metre
 const float kHeight = 0.12; // metres, where it flies freely
 
 void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv)
@@ -12,13 +12,13 @@ void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv)
     normalOS = normalize(vec3(-slope, -across, 1.0));
 }
 
-// 1 from `edge` on; steps would leave jagged edges, and on which side a pixel falls would be left to rounding.
+// 1 from `edge` on, smoothly: a step would alias, and rounding would decide pixels at the edge.
 float from(float edge, float x)
 {
     return smoothstep(edge - 0.004, edge + 0.004, x);
 }
 
-// Seven stripes, a quarter of plum, and in it a sun.
+// Seven stripes, and a plum canton with a sun.
 void hookSurface(inout HookedSurface surface, HookInputs inputs)
 {
     const vec3 kCream = vec3(0.82, 0.77, 0.66), kPlum = vec3(0.13, 0.015, 0.08), kGold = vec3(0.85, 0.5, 0.06);

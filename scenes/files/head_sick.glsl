@@ -1,8 +1,8 @@
 // A bust that falls ill: it nods, its ears flap, its nose reddens and its skin goes green.
-const float kUnitMetres = 0.6 / 4.34;          // of the bust's own units, in which the numbers below are
-const vec3 kFoot = vec3(0.0, -3.1, -0.32);     // where positionOS has its origin
-const vec3 kNeck = vec3(0.0, -0.75, -0.35);    // what it nods about
-const vec3 kEar = vec3(0.72, -0.08, -0.12);    // where the left ear grows, which turns about an upright axis
+const float kUnitMetres = 0.6 / 4.34;          // metres per bust unit; the numbers below are in bust units
+const vec3 kFoot = vec3(0.0, -3.1, -0.32);     // origin of positionOS
+const vec3 kNeck = vec3(0.0, -0.75, -0.35);    // pivot of the nod
+const vec3 kEar = vec3(0.72, -0.08, -0.12);    // pivot of the left ear, which turns about an upright axis
 const vec3 kNose = vec3(0.0, -0.28, 0.95);
 
 float illness()
@@ -10,7 +10,7 @@ float illness()
     return smoothstep(0.0, hook.illAfterSeconds, hook.timeSeconds);
 }
 
-// y is rotated towards z.
+// Rotates y towards z.
 vec3 nodded(vec3 place, float radians)
 {
     vec3 arm = place - kNeck;
@@ -51,7 +51,7 @@ void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv)
 void hookSurface(inout HookedSurface surface, HookInputs inputs)
 {
     vec3 place = nodded(inputs.positionOS / kUnitMetres + kFoot, -nodRadians());
-    // Neither hair, which is dark, nor eyes, which are grey.
+    // Excludes hair, which is dark, and eyes, which are grey.
     float skin = smoothstep(0.1, 0.3, surface.color.r) * smoothstep(0.1, 0.2, surface.color.r - surface.color.b);
     float light = dot(surface.color, vec3(0.3, 0.6, 0.1));
     surface.color = mix(surface.color, light * vec3(0.52, 1.2, 0.4), hook.green * illness() * skin);

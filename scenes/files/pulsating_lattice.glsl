@@ -1,7 +1,7 @@
 // The lattice breathes: slow waves of swelling and light run from its middle outwards.
 const float kTurn = 6.2831853;
 
-// 0 to 1 and back, `place` turns late.
+// 0 to 1 and back; `place` is a delay in turns.
 float breath(float place)
 {
     return 0.5 - 0.5 * cos(kTurn * (hook.breathsASecond * hook.timeSeconds - place));
@@ -15,7 +15,7 @@ void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv)
 
 void hookSurface(inout HookedSurface surface, HookInputs inputs)
 {
-    // After the floor come rows of 16 objects, so their numbers say where they stand.
+    // The instances after the floor are rows of 16 objects, so the index gives the cell.
     int number = inputs.instance - 1;
     vec2 cell = vec2(float(number % 16), float(number / 16)) - 7.5;
     float late = 0.09 * length(cell);

@@ -15,7 +15,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// The elements of these lists.
+/// Moves the elements of the given lists.
 template <typename Owner>
 void moveAll(Owner& from, Owner& to, auto... lists) {
     (std::ranges::move(from.*lists, std::back_inserter(to.*lists)), ...);
@@ -29,7 +29,7 @@ glm::dvec3 movedPoint(const glm::dmat4& worldFromPart, const glm::dvec3& point) 
     return glm::dvec3(worldFromPart * glm::dvec4(point, 1.0));
 }
 
-/// `what` names whose direction it is.
+/// `what` and `name` identify the owner of the direction in errors.
 glm::dvec3 movedDirection(const glm::dvec3& vector, const char* what, const std::string& name) {
     const std::optional<glm::dvec3> direction = directionOf(vector);
     if (!direction)
@@ -44,7 +44,7 @@ void moveTangents(LightKeys& keys, const glm::dmat3& linear) {
         for (glm::dvec3& tangentWS : *tangents) tangentWS = linear * tangentWS;
 }
 
-/// Each key's direction becomes of unit length again, and its tangents are scaled with it.
+/// Normalises each key's direction and scales its tangents alike.
 void moveDirections(LightKeys& keys, const glm::dmat3& linear, const std::string& name) {
     moveTangents(keys, linear);
     for (std::size_t i = 0; i < keys.values.size(); ++i) {
@@ -63,7 +63,7 @@ void moveLight(Light& light, const glm::dmat4& worldFromPart) {
     if (infoOf(light.type).isTurned())
         light.alongWS = acrossFrom(light.directionWS, movedDirection(linear * light.alongWS, "light", light.name))
                             .value_or(usualAlong(light.directionWS));
-    // Mirrored, what was across is on the other side.
+    // A mirroring transform flips the y axis of the corners.
     if (infoOf(light.type).hasCorners() && glm::determinant(linear) < 0.0)
         for (std::size_t i = 0; i < light.corners.count; ++i) light.corners.metres[i].y *= -1.0f;
     for (LightKeys& keys : light.keyframes)
@@ -72,14 +72,14 @@ void moveLight(Light& light, const glm::dmat4& worldFromPart) {
     LightAnimation& animation = *light.animation;
     animation.centerWS = movedPoint(worldFromPart, animation.centerWS);
     animation.axisWS = movedDirection(cofactorOf(linear) * animation.axisWS, "light",
-                                      light.name); // mirrored, an orbit runs the other way
+                                      light.name); // mirroring reverses an orbit
     animation.amplitudeMetres = linear * animation.amplitudeMetres;
     for (glm::dvec3& pointWS : animation.pointsWS) pointWS = movedPoint(worldFromPart, pointWS);
     for (glm::dvec3& valueWS : animation.keys.values) valueWS = movedPoint(worldFromPart, valueWS);
     moveTangents(animation.keys, linear);
 }
 
-/// View direction and position go along exactly; up follows as far as a rotation allows.
+/// Transforms position and view direction exactly; up follows as far as a rotation allows.
 void moveCamera(Camera& camera, const glm::dmat4& worldFromPart) {
     const glm::dmat4 moved = worldFromPart * camera.worldFromCamera;
     const glm::dvec3 back = movedDirection(glm::dvec3(moved[2]), "camera", camera.name);
@@ -88,7 +88,7 @@ void moveCamera(Camera& camera, const glm::dmat4& worldFromPart) {
                               moved[3]};
 }
 
-/// Before anything of `part` is moved into `whole`. Its nodes will stand behind `nodes` others.
+/// Offsets the indices of a part's rig. Called before the part is moved into `whole`; its nodes follow `nodes` others.
 void shiftRig(Rig& rig, const Scene& whole, std::size_t nodes) {
     const Rig& before = whole.rig;
     for (int& clip : rig.playing) shift(clip, before.clips.size());

@@ -19,7 +19,7 @@ bool isFile(const fs::path& path) {
     return fs::is_regular_file(path, failure);
 }
 
-/// Takes a UTF-8 character off `text`; bytes that are none are Latin-1.
+/// Removes and returns the first UTF-8 character of `text`; invalid bytes are read as Latin-1.
 std::uint32_t takeCharacter(std::string_view& text) {
     const std::size_t size = std::max<std::size_t>(letterBytes(text), 1);
     const auto byteAt = [&](std::size_t i) -> std::uint32_t { return static_cast<unsigned char>(text[i]); };
@@ -50,7 +50,7 @@ std::u32string charactersOf(std::string_view text) {
     return characters;
 }
 
-/// The entry of a folder that differs from `name` as isSameName() allows, the first by its bytes.
+/// The entry of a folder that matches `name` by isSameName(); of several the first in byte order.
 std::optional<fs::path> entryLike(const fs::path& folder, const std::string& name) {
     std::optional<fs::path> found;
     std::error_code failure;

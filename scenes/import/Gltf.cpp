@@ -37,8 +37,8 @@ private:
     std::map<int, std::vector<MeshInstance>> imported_;
 };
 
-/// Gives each instance a node of its own below that of its mesh. Called when all nodes of the document are in the
-/// scene, so that these keep their numbers.
+/// Adds one node per instance below the node of its mesh. Called when all nodes of the document are in the scene, so
+/// that their indices do not change.
 void addInstances(Context& context, Meshes& meshes, const Instancing& instancing, const std::vector<int>& sceneNodes) {
     std::vector<Node>& nodes = context.scene.nodes;
     for (const auto& [index, transforms] : instancing) {
@@ -46,7 +46,7 @@ void addInstances(Context& context, Meshes& meshes, const Instancing& instancing
         const std::string name = nodes[std::size_t(parent)].name;
         const std::vector<MeshInstance>& drawn =
             meshes.instancesOf(elementAt(context.document.model.nodes, index).mesh);
-        constexpr std::size_t kCopies = 2, kDigits = 24; // while the vector grows; behind the name
+        constexpr std::size_t kCopies = 2, kDigits = 24; // copies while the vector grows; digits after the name
         const std::size_t bytesEach = sizeof(Node) + name.size() + kDigits + drawn.size() * sizeof(MeshInstance);
         context.document.charge(kCopies * transforms.size() * bytesEach, "nodes", index);
         for (std::size_t i = 0; i < transforms.size(); ++i) {
@@ -65,7 +65,7 @@ void warnOfIgnoredFeatures(Context& context) {
     for (const std::string& extension : model.extensionsUsed)
         if (!isSupported(extension) && std::ranges::count(model.extensionsRequired, extension) == 0)
             context.warn("the extension {} is not supported and was ignored{}", extension,
-                         extension == "KHR_materials_diffuse_transmission" // whose name does not imply what is drawn
+                         extension == "KHR_materials_diffuse_transmission" // its name does not imply what is drawn
                              ? "; its materials let through only what their alpha does"
                              : "");
 }

@@ -26,7 +26,7 @@ struct Meshopt {
 constexpr std::size_t kMaxRatio = 64;
 constexpr std::size_t kBlockBytes = 8192;
 
-/// Throws InputError with the reason when the layout breaks a rule of the extension.
+/// Throws InputError with the reason if the layout breaks a rule of the extension.
 void checkLayout(const Meshopt& layout, std::size_t encodedBytes) {
     const std::size_t stride = layout.byteStride;
     const bool isOfAttributes = layout.mode == "ATTRIBUTES";
@@ -46,12 +46,12 @@ void checkLayout(const Meshopt& layout, std::size_t encodedBytes) {
             fmt::format("{} bytes cannot hold {} elements of {} bytes", encodedBytes, layout.count, stride));
 }
 
-/// The bytes that the layout says, as far as `encodedBytes` can hold them.
+/// The decoded size that the layout states, limited to what `encodedBytes` can encode.
 std::uint64_t decodedBytes(const Meshopt& layout, std::size_t encodedBytes) {
     return std::min<std::uint64_t>(layout.count * layout.byteStride, encodedBytes * kMaxRatio + kBlockBytes);
 }
 
-/// `layout.count` elements of `layout.byteStride` bytes. Throws InputError with the reason when the data is broken.
+/// Decodes `layout.count` elements of `layout.byteStride` bytes. Throws InputError with the reason if that fails.
 std::vector<std::byte> decodeMeshopt(std::span<const std::byte> encoded, const Meshopt& layout) {
     checkLayout(layout, encoded.size());
     std::vector<std::byte> decoded(layout.count * layout.byteStride);
@@ -73,7 +73,7 @@ std::vector<std::byte> decodeMeshopt(std::span<const std::byte> encoded, const M
     return decoded;
 }
 
-/// An accessor without a buffer view is all zeros whatever the file's size, so its count needs a bound of its own.
+/// An accessor without a buffer view is all zeros whatever the file's size, so its count needs a separate bound.
 constexpr std::size_t kMaxCountWithoutView = std::size_t{1} << 22;
 
 template <typename T>
@@ -178,7 +178,7 @@ std::span<const std::byte> Buffers::view(int bufferView) {
     return found->second;
 }
 
-/// Where elements lie: all of [first, last byte of the last element] is inside the buffer view.
+/// Location of elements: all of [first, last byte of the last element] is inside the buffer view.
 struct Accessors::Source {
     const std::byte* first = nullptr;
     std::size_t byteStride = 0;

@@ -9,7 +9,7 @@ class Mesh;
 
 namespace tessera::scenes::gltf {
 
-/// The bytes behind buffer views: buffers are read, and views that EXT_meshopt_compression packs decoded, on first use.
+/// Contents of buffer views. Buffers are read, and views of EXT_meshopt_compression decoded, on first use.
 class Buffers {
 public:
     explicit Buffers(const Document& document) : document_(document) {}
@@ -28,7 +28,7 @@ private:
 
     const Document& document_;
     std::map<int, std::vector<std::byte>> buffers_;      ///< those read from URIs
-    std::map<int, std::string> broken_;                  ///< why others cannot be read
+    std::map<int, std::string> broken_;                  ///< reasons why others cannot be read
     std::map<int, std::vector<std::byte>> decompressed_; ///< by buffer view
     std::uint64_t heldBytes_ = 0;
 };
@@ -36,16 +36,16 @@ private:
 /// An accessor's elements as floats: normalised integers in 0..1 or -1..1, other integers as their value.
 struct Elements {
     std::size_t count = 0;
-    int components = 0; ///< 1..4 an element, or the 16 of a matrix, column by column
+    int components = 0; ///< 1..4 per element, or 16 for a column-major 4x4 matrix
     bool normalized = false;
     int componentType = 0; ///< TINYGLTF_COMPONENT_TYPE_...
     std::vector<float> values;
 };
 
-/// Calls `use` with a number of a component type.
+/// Calls `use` with a value of the C++ type of a component type.
 template <typename Use>
 decltype(auto) withComponent(int componentType, Use&& use) {
-    if (componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return use(float{}); // nearly all are
+    if (componentType == TINYGLTF_COMPONENT_TYPE_FLOAT) return use(float{}); // the most common
     if (componentType == TINYGLTF_COMPONENT_TYPE_BYTE) return use(std::int8_t{});
     if (componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return use(std::uint8_t{});
     if (componentType == TINYGLTF_COMPONENT_TYPE_SHORT) return use(std::int16_t{});
@@ -53,7 +53,7 @@ decltype(auto) withComponent(int componentType, Use&& use) {
     return use(std::uint32_t{});
 }
 
-/// Of one component.
+/// Size of one component.
 inline std::size_t bytesOf(int componentType) {
     return std::size_t(tiny::GetComponentSizeInBytes(std::uint32_t(componentType)));
 }
@@ -64,8 +64,7 @@ class Accessors {
 public:
     Accessors(const Document& document, Buffers& buffers) : document_(document), buffers_(buffers) {}
 
-    /// `packed`, where it has data, stands for the accessor's buffer view: as many elements as it says, one after
-    /// another.
+    /// `packed`, if not empty, replaces the accessor's buffer view: all its elements, tightly packed.
     Elements elements(int accessor, std::span<const std::byte> packed = {});
     std::vector<std::uint32_t> indices(int accessor);
 
@@ -81,23 +80,22 @@ private:
     Buffers& buffers_;
 };
 
-/// What a stream of KHR_draco_mesh_compression holds of a primitive.
+/// A primitive decoded from a stream of KHR_draco_mesh_compression.
 struct DracoGeometry {
-    /// By name. The elements follow one another in the component type of the attribute's accessor, as many as it says.
+    /// By name. Elements are tightly packed, with the component type and count of the attribute's accessor.
     std::map<std::string, std::vector<std::byte>> attributes;
-    std::vector<std::uint32_t> corners; ///< three a triangle
+    std::vector<std::uint32_t> corners; ///< three per triangle
 };
 
-/// The streams in a document's buffer views. One that several primitives name is decoded once and kept.
+/// The Draco streams in a document's buffer views. A stream that several primitives share is decoded once and kept.
 class DracoStreams {
 public:
     DracoStreams(const Document& document, Buffers& buffers);
 
-    /// Decodes the stream of a primitive, which has one. `place` is that of the primitive. What the stream claims is
-    /// compared with the accessors and charged to the ledger before memory is reserved for it; of that only the result
-    /// and what is kept stay charged. Throws InputError naming the file, the primitive and the mesh when the stream is
-    /// broken, is no mesh, or is not what the accessors say. Source: KHR_draco_mesh_compression; Draco bitstream
-    /// specification 2.2.
+    /// Decodes the stream of a primitive that has one; `place` is the primitive's. The sizes that the stream claims are
+    /// compared with the accessors and charged to the ledger before memory is allocated; only the result and kept
+    /// streams stay charged. Throws InputError naming the file, the primitive and the mesh if the stream is broken, is
+    /// not a mesh, or contradicts the accessors. Source: KHR_draco_mesh_compression; Draco bitstream specification 2.2.
     DracoGeometry decode(const tiny::Primitive& primitive, const std::string& place, const std::string& meshName);
     /// Bytes charged to the ledger that this object keeps until its end.
     std::uint64_t heldBytes() const { return heldBytes_; }
@@ -105,7 +103,7 @@ public:
 private:
     const Document& document_;
     Buffers& buffers_;
-    std::map<int, std::size_t> primitives_;                    ///< how many name a buffer view
+    std::map<int, std::size_t> primitives_;                    ///< number of primitives, by buffer view
     std::map<int, std::shared_ptr<const draco::Mesh>> shared_; ///< decoded, by buffer view
     std::uint64_t heldBytes_ = 0;
 };

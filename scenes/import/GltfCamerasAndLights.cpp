@@ -57,10 +57,10 @@ LightType typeOf(const tiny::Light& light) {
     return light.type == "point" ? LightType::Point : LightType::Spot;
 }
 
-/// Equal angles, which the extension forbids and Blender writes for a spot without blend, are a cone with a hard edge.
+/// Equal angles give a cone with a hard edge. The extension forbids them; Blender writes them for a spot without blend.
 void setCones(const Document& document, const tiny::SpotLight& stored, const std::string& place, Light& light) {
     constexpr double kWidestRadians = std::numbers::pi / 2.0;
-    // Exporters round pi/2 up to float; a millionth of a radian is more than that and less than anything visible.
+    // Exporters round pi/2 up to float; a millionth of a radian covers that and is invisible.
     constexpr double kRoundingRadians = 1e-6;
     double outer = stored.outerConeAngle;
     if (outer > kWidestRadians + kRoundingRadians) {
@@ -79,7 +79,7 @@ void setCones(const Document& document, const tiny::SpotLight& stored, const std
 
 using ExporterVersion = std::pair<int, int>; ///< major, minor
 
-/// Of Blender's exporter, where a text such as "Khronos glTF Blender I/O v4.2.57" names it; 0.0 where it says none.
+/// Version of Blender's exporter, from a text such as "Khronos glTF Blender I/O v4.2.57"; 0.0 if it has no number.
 std::optional<ExporterVersion> blenderVersion(std::string_view generator) {
     constexpr std::string_view kBlender = "glTF Blender I/O";
     const std::size_t at = generator.find(kBlender);
@@ -137,7 +137,7 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
         context.warn("/nodes/{}: its scale of zero leaves light '{}' no direction; -Z is used", nodeIndex, light.name);
     if (infoOf(light.type).hasPosition()) {
         const auto values = elementsOf(valueAt(document.model.extensions, "KHR_lights_punctual/lights"));
-        // three.js writes 0 for a light without an end.
+        // three.js writes 0 for an unlimited range.
         if (float(stored.range) > 0.0f)
             light.rangeMetres = float(stored.range);
         else if (values[at].Has("range"))

@@ -9,7 +9,7 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-/// A place in a document, whose text is made for messages only: nearly all places are good. It refers to the one above.
+/// A position in a document, linked to its parent. The text is built only for messages: nearly all values are valid.
 class Place {
 public:
     Place() = default; ///< the document
@@ -25,14 +25,14 @@ private:
     }
 
     const Place* above_ = nullptr;
-    std::string_view path_; ///< no data: an array's element
+    std::string_view path_; ///< no data: an array element
     std::size_t index_ = 0;
 };
 
 constexpr std::string_view kLeftOut = "it is left out";
 constexpr std::string_view kClamped = "the nearest bound is taken";
 
-/// Checks what the scene uses: an element of the document's arrays once an index that is used names it.
+/// Checks the parts that the scene uses: an array element is checked once a used index refers to it.
 class Checker {
 public:
     Checker(Json& document, const std::string& file, LoadLedger& ledger, Repairs& repairs)
@@ -47,7 +47,7 @@ public:
             useIfGood(scenes->second, checked.value("scene", std::size_t{0}));
         else
             useAll("nodes");
-        useAll("extensions/KHR_materials_variants/variants"); // by name
+        useAll("extensions/KHR_materials_variants/variants"); // referred to by name
         while (!waiting_.empty()) {
             const auto [array, index] = waiting_.back();
             waiting_.pop_back();
@@ -65,7 +65,7 @@ public:
 private:
     enum class State : char { New, Used, Flawed };
 
-    /// Of the document. Without source, one of the texts is set.
+    /// An array of the document. Without `source`, `missing` or `type` is set.
     struct Array {
         Json* source = nullptr;
         const Struct* object = nullptr;
@@ -73,8 +73,8 @@ private:
         Json checked = Json::array();
         std::vector<State> states;
         std::map<std::size_t, std::string> flaws;
-        std::string_view missing; ///< the key
-        std::string type;         ///< of what is no array
+        std::string_view missing; ///< the missing key
+        std::string type;         ///< type of the value that is not an array
     };
 
     void find(std::string_view path, Array& array) {
@@ -93,7 +93,7 @@ private:
         const Property& property = *std::ranges::find(schema().document().properties, path, &Property::path);
         array.source = value;
         array.object = property.type.object;
-        constexpr std::uint64_t kMostMembers = 3; // of a stand-in
+        constexpr std::uint64_t kMostMembers = 3; // members of a stand-in
         charge(value->size() * (array.object->bytes + sizeof(State) + kMostMembers * 2 * kHeapBlockBytes), array.place,
                value->size());
         array.states.resize(value->size());
@@ -109,7 +109,7 @@ private:
         for (std::size_t i = 0; i < array.states.size(); ++i) useIfGood(array, i);
     }
 
-    /// Throws what is wrong with the element. What cannot be flawed waits: nodes name each other, in any depth.
+    /// Checks an element; throws InputError if flawed. Elements that cannot be flawed are queued, since nodes nest.
     void use(Array& array, std::size_t index) {
         State& state = array.states[index];
         if (state == State::Flawed) throw InputError(array.flaws.at(index));
@@ -159,7 +159,7 @@ private:
         return checked;
     }
 
-    /// `checked` has the properties before it.
+    /// Finds the value of a property; `checked` holds the properties before it.
     Json* find(Json& object, const Property& property, const Json& checked, const Place& place) const {
         Json* value = &object;
         for (std::size_t i = 0; i < property.keys.size(); ++i) {
@@ -226,7 +226,7 @@ private:
         return std::move(value);
     }
 
-    /// Numbers beyond the length are left out; of a colour, the only vector of four with bounds, alpha may be missing.
+    /// Truncates a vector to its length. Colours, the only bounded vectors of four, may lack alpha.
     void takeLength(Json& value, std::string_view size, const Type& type, const Place& place) {
         std::size_t length = 0;
         std::from_chars(size.data(), size.data() + size.size(), length);
@@ -289,7 +289,7 @@ private:
         use(array, index);
     }
 
-    /// Numbers end as floats in the scene, so what overflows one is none.
+    /// Rejects numbers that overflow a float, because the scene stores floats.
     double number(const Json& value, const Type& type, const Place& place) const {
         require(value.is_number(), "a number", value, place);
         const double number = value.get<double>();

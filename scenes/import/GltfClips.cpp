@@ -20,7 +20,7 @@ const AnimatedPropertyInfo* propertyOf(AnimatedOwner owner, std::string_view pat
     return nullptr;
 }
 
-/// KHR_materials_pbrSpecularGlossiness has others in the place of these (Materials::convertSpecularGlossiness).
+/// Whether KHR_materials_pbrSpecularGlossiness replaces the property (Materials::convertSpecularGlossiness).
 bool isReplacedBySpecularGlossiness(AnimatedProperty property) {
     constexpr AnimatedProperty kReplaced[] = {AnimatedProperty::BaseColor,           AnimatedProperty::Metallic,
                                               AnimatedProperty::PerceptualRoughness, AnimatedProperty::Ior,
@@ -33,7 +33,7 @@ bool isOfSpecularGlossiness(TextureSlot slot) {
     return std::ranges::find(kOwn, slot) != std::end(kOwn);
 }
 
-/// Channels that change one thing of the document, of which the last counts; the specification forbids others.
+/// Channels with the same target. The specification forbids more than one; the last one applies.
 struct Rivals {
     std::size_t last = 0;
     std::size_t count = 0;
@@ -86,14 +86,14 @@ std::string kindOf(std::string_view pointer) {
     return kind;
 }
 
-// ---- What they are in the scene ------------------------------------------------------------------------------------
+// ---- Targets in the scene ------------------------------------------------------------------------------------------
 
 std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_view path) {
     const AnimatedPropertyInfo* info = propertyOf(AnimatedOwner::Node, path);
     if (info == nullptr) info = propertyOf(AnimatedOwner::Weights, path);
     if (info == nullptr) return {};
     Animated animated{info->property, std::size_t(info->width)};
-    if (sceneNodes_[std::size_t(index)] == kNone) return animated; // nothing of the scene moves
+    if (sceneNodes_[std::size_t(index)] == kNone) return animated; // the node is not in the scene
     if (info->owner == AnimatedOwner::Weights) {
         const auto rest = weights_.find(index);
         if (rest == weights_.end()) return {};
@@ -101,7 +101,7 @@ std::optional<Rigging::Animated> Rigging::animatedOfNode(int index, std::string_
         animated.width = context_.scene.rig.weights[std::size_t(rest->second)].size();
         return animated;
     }
-    if (!elementAt(context_.document.model.nodes, index).matrix.empty()) return {}; // has no parts to change
+    if (!elementAt(context_.document.model.nodes, index).matrix.empty()) return {}; // has no TRS to change
     if (info->property == AnimatedProperty::NodeVisibility) return visibilityOf(index);
     animated.targets.push_back(restNode(index));
     return animated;
@@ -127,7 +127,7 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
     const bool isUnlit = stored.surface.model == MaterialModel::SingleColor;
     const bool isOfUnlit =
         info->property == AnimatedProperty::BaseColor || info->property == AnimatedProperty::AlphaCutoff;
-    // What other programs make of a material changes nothing here.
+    // Fallback properties for other programs have no effect here.
     if (isUnlit && !isOfUnlit) return animated;
     if (stored.specularGlossiness && isReplacedBySpecularGlossiness(info->property)) return animated;
     if (info->property == AnimatedProperty::Thickness) {
@@ -156,7 +156,7 @@ std::optional<Rigging::Animated> Rigging::animatedOfMaterial(std::size_t index, 
     return animated;
 }
 
-/// None where the document has no texture there, whose transform would change nothing.
+/// Empty if the document has no texture there.
 std::optional<Rigging::Animated> Rigging::animatedOfTexture(std::size_t index, std::string_view path) {
     const StoredMaterial& stored = context_.document.materials[index];
     for (std::size_t i = 0; i < stored.textures.size(); ++i) {
@@ -165,7 +165,7 @@ std::optional<Rigging::Animated> Rigging::animatedOfTexture(std::size_t index, s
         const AnimatedPropertyInfo* const info = propertyOf(AnimatedOwner::Texture, path.substr(place.size() + 1));
         if (info == nullptr || stored.textures[i].texture == kNone) return {};
         Animated animated{info->property, std::size_t(info->width)};
-        if (stored.specularGlossiness && isOfSpecularGlossiness(slot)) return animated; // has another texture there
+        if (stored.specularGlossiness && isOfSpecularGlossiness(slot)) return animated; // uses another texture there
         for (const int material : materials_.imported(int(index)))
             if (context_.scene.materials[std::size_t(material)].texture(slot).image != kNone)
                 animated.targets.push_back(restNumber(info->property, material, slot));
@@ -183,12 +183,12 @@ std::optional<Rigging::Animated> Rigging::animatedOfCamera(std::size_t index, st
     Animated animated{info->property, std::size_t(info->width)};
     const bool isUpsideDown =
         info->property == AnimatedProperty::CameraHalfHeight && cameras[index].orthographic.ymag < 0;
-    if (isUpsideDown) animated.scale = -1.0; // its size counts, as where it is imported
+    if (isUpsideDown) animated.scale = -1.0; // its magnitude counts, as on import
     for (const int camera : cameras_[int(index)]) animated.targets.push_back(restNumber(info->property, camera));
     return animated;
 }
 
-/// None where the scene has no such thing that can change.
+/// Empty if the scene cannot animate the channel's target.
 std::optional<Rigging::Animated> Rigging::animated(const tiny::AnimationChannel& channel) {
     const std::string changed = changedBy(channel);
     std::string_view path = changed;
@@ -286,7 +286,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
     };
     if (times.components != 1 || times.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
         failTimes("holds key times, so it must be SCALAR of FLOAT");
-    float before = 0.0f; // time of the last key, as it is stored
+    float before = 0.0f; // stored time of the previous key
     for (std::size_t key = 0; key < times.count; ++key) {
         if (!std::isfinite(times.values[key]))
             failTimes(fmt::format("has key {} at {} s; key times must be finite", key, times.values[key]));
@@ -312,7 +312,7 @@ AnimationSampler Rigging::sampler(int animation, int index, const Animated& anim
     const int components = isOneByOne ? 1 : info.width;
     if (values.components != components)
         failValues(fmt::format("has {} components an element; {} needs {}", values.components, info.path, components));
-    // Pointers take plain integers as the numbers that they are. Source: KHR_animation_pointer, "Output Accessor
+    // Integers that are not normalized are plain numbers for pointers. Source: KHR_animation_pointer, "Output Accessor
     // Component Types".
     if (values.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !values.normalized && !ownsNumbers(info.owner) &&
         !isWhole)
@@ -357,12 +357,12 @@ Clip Rigging::clip(int index) {
     std::uint64_t mark = used();
     Clip clip;
     clip.name = nameOr(stored.name, "animation", index);
-    std::map<std::pair<int, double>, int> samplers; // of the clip, by those of the document and their scale
-    std::map<std::pair<AnimatedProperty, int>, std::size_t> channels; // of the clip, by what they change
-    std::set<std::array<int, 4>> failed;                              // what was read in vain
-    constexpr std::size_t kEntryBytes = 96;                           // of a map
-    std::vector<Rivals> counting;                                     // by what they change, in document order
-    std::map<std::string, std::size_t> places;                        // in it
+    std::map<std::pair<int, double>, int> samplers; // sampler of the clip, by that of the document and scale
+    std::map<std::pair<AnimatedProperty, int>, std::size_t> channels; // channel of the clip, by target
+    std::set<std::array<int, 4>> failed;                              // samplers that could not be read
+    constexpr std::size_t kEntryBytes = 96;                           // per map entry
+    std::vector<Rivals> counting;                                     // by target, in document order
+    std::map<std::string, std::size_t> places;                        // in `counting`
     for (std::size_t i = 0; i < stored.channels.size(); ++i) {
         std::string changed = changedBy(stored.channels[i]);
         auto place = places.find(changed);
@@ -375,7 +375,7 @@ Clip Rigging::clip(int index) {
         rivals.last = i;
         ++rivals.count;
     }
-    // What one thing of the document is in the scene may be much, such as all lights that it stands for.
+    // One target in the document can be many in the scene, such as all instances of a light.
     for (const auto& [i, count] : counting) {
         const tiny::AnimationChannel& channel = stored.channels[i];
         const std::string pointer = pointerOf(channel);
@@ -416,10 +416,10 @@ Clip Rigging::clip(int index) {
         });
         if (!isGood) {
             failed.insert(read);
-            mark += used() - usedBefore; // stays charged, so that flawed samplers take no more time than good ones
+            mark += used() - usedBefore; // stays charged, which bounds the time spent on flawed samplers
             continue;
         }
-        // Things of the document may be one of the scene's.
+        // Several targets in the document may be one in the scene.
         for (const int target : what->targets) {
             const auto [same, isFirst] = channels.try_emplace({what->property, target}, clip.channels.size());
             if (isFirst) clip.channels.push_back({what->property, target});
@@ -427,7 +427,7 @@ Clip Rigging::clip(int index) {
         }
         for (const auto& [property, target, rest] : what->multiplied) {
             const auto [same, isFirst] = channels.try_emplace({property, target}, clip.channels.size());
-            if (isFirst) { // stays as it is, unless another channel changes it too
+            if (isFirst) { // constant, unless another channel animates it too
                 document.charge(2 * sizeof(AnimationSampler) + (1 + rest.size()) * sizeof(float), "animations", index);
                 clip.channels.push_back({property, target, int(clip.samplers.size())});
                 clip.samplers.push_back({Interpolation::Linear, int(rest.size()), {0.0f}, rest});

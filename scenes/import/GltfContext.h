@@ -13,8 +13,8 @@ inline constexpr int kPoints = 0, kLines = 1, kLineLoop = 2, kTriangles = 4, kSt
 /// How primitives show their material. Source: glTF 2.0 specification, "Point and Line Materials".
 enum class Shading : std::uint8_t {
     AsStated,
-    WithoutNormalMaps, ///< points and lines with normals: those of their solids' faces, which no tangents go with
-    Unlit              ///< points and lines without: base colour plus emission
+    WithoutNormalMaps, ///< points and lines with normals: lit with the face normals of their solids, without tangents
+    Unlit              ///< points and lines without normals: base colour plus emission
 };
 
 /// Whether a primitive draws points or lines.
@@ -29,33 +29,33 @@ inline Shading shadingOf(const tiny::Primitive& primitive) {
 
 inline constexpr int kTexCoordSets = std::tuple_size_v<decltype(Mesh::texCoords)>;
 
-/// A material of the document, as primitives show it.
+/// A material of the document as shown by primitives.
 struct ShownMaterial {
     int index = kNone;
     Shading shading = Shading::AsStated;
-    unsigned lostSets = 0; ///< bit N: the mesh has no texture coordinates N; none has those from kTexCoordSets
+    unsigned lostSets = 0; ///< bit N: the mesh lacks TEXCOORD_N; bit kTexCoordSets: all further sets
     auto operator<=>(const ShownMaterial&) const = default;
 };
 
-/// What every part of one import works on.
+/// Shared state of one import.
 struct Context {
     const Document& document;
     Scene& scene;
     Buffers buffers{document};
     Accessors accessors{document, buffers};
     DracoStreams streams{document, buffers};
-    /// By meshes of the scene, in the variant that is shown.
+    /// Material in the requested variant, by scene mesh.
     std::map<int, ShownMaterial> variantMaterials = {};
-    std::map<int, int> thinModes = {}; ///< the glTF modes of meshes of the scene that draw points or lines
-    /// By material of the document: metres of the world a unit of the meshes that show it; none where they do not share
-    /// one that is the same in all directions.
+    std::map<int, int> thinModes = {}; ///< glTF modes of scene meshes that draw points or lines
+    /// By material of the document: world metres per unit of the meshes that show it; empty if they share no uniform
+    /// scale.
     std::map<int, std::optional<double>> thicknessScales = {};
-    std::uint64_t unreadableBytes = 0;                       ///< that pictures took which cannot be read
+    std::uint64_t unreadableBytes = 0;                       ///< spent on images that cannot be read
     std::unordered_set<std::string> warned = {};             ///< the scene's warnings
-    std::unordered_map<std::string, int> cameraNumbers = {}; ///< the last number behind a name that was taken
+    std::unordered_map<std::string, int> cameraNumbers = {}; ///< the last number appended to a repeated name
     std::unordered_set<std::string> cameraNames = {};
 
-    /// The document's material of a primitive in the variant that is asked for, where that changes it.
+    /// The document's material of a primitive in the requested variant, if the variant changes it.
     std::optional<int> variantMaterial(const tiny::Primitive& primitive) const {
         const std::optional<std::string>& wish = document.ledger.wishes().variant;
         if (!wish) return std::nullopt;
@@ -67,15 +67,15 @@ struct Context {
                     return integerOf(valueAt(&mapping, "material"));
         return std::nullopt;
     }
-    /// Called for each mesh of the scene that a primitive becomes.
+    /// Called for each scene mesh made from a primitive.
     void noteMesh(int sceneMesh, const tiny::Primitive& primitive, unsigned lostSets) {
         if (const std::optional<int> material = variantMaterial(primitive))
             variantMaterials[sceneMesh] = {*material, shadingOf(primitive), lostSets};
         if (isThin(primitive)) thinModes[sceneMesh] = primitive.mode;
     }
 
-    /// Warns that the value at a JSON pointer was repaired; throws InputError instead where the load is strict.
-    /// `repair` begins with its punctuation and names what is drawn.
+    /// Warns that the value at a JSON pointer was repaired; throws InputError instead if the load is strict. `repair`
+    /// begins with punctuation and names what is drawn instead.
     template <typename... Values>
     void repair(const std::string& place, std::string_view repair, fmt::format_string<Values...> flaw,
                 Values&&... values) {
@@ -84,7 +84,7 @@ struct Context {
         warn("{}: {}{}", place, what, repair);
     }
 
-    /// Adds "file: text" to the scene's warnings unless it already stands there. Charges the ledger for both copies.
+    /// Adds "file: text" to the scene's warnings unless it is already there. Charges the ledger for both copies.
     void warn(const std::string& text) {
         std::string line = fmt::format("{}: {}", document.file, text);
         if (warned.contains(line)) return;

@@ -14,7 +14,7 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-/// A '%' that two hexadecimal digits do not follow stands for itself.
+/// Decodes percent escapes; a '%' without two hexadecimal digits is literal.
 std::string percentDecoded(std::string_view text) {
     std::string decoded;
     decoded.reserve(text.size());
@@ -78,7 +78,7 @@ bool hasScheme(std::string_view uri) {
 
 // ---- Container -----------------------------------------------------------------------------------------------------
 
-/// A glTF file cut into its JSON text and, for .glb, its binary chunk.
+/// A glTF file split into its JSON text and, for .glb, its binary chunk.
 struct Container {
     std::string json;
     std::optional<std::vector<std::byte>> binary;
@@ -139,12 +139,12 @@ Container readBinary(std::span<const std::byte> bytes, const std::string& name) 
 Container readContainer(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
     const std::string name = file.string();
-    ledger.charge(bytes.size(), [&] { return name; }); // once more, cut into its parts
+    ledger.charge(bytes.size(), [&] { return name; }); // a second copy, split into its parts
     if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty; export the model again", name));
     if (bytes.size() >= 4 && wordAt(bytes, 0) == kMagic) return readBinary(bytes, name);
     Container container{textOf(bytes), std::nullopt};
     const std::size_t first = container.json.find_first_not_of(" \t\r\n");
-    constexpr std::string_view kBeginnings = "{/"; // of comments, which are repaired
+    constexpr std::string_view kBeginnings = "{/"; // '/' begins a comment, which is repaired
     if (first == std::string::npos || kBeginnings.find(container.json[first]) == kBeginnings.npos)
         throw InputError(fmt::format(
             "{}: is neither glTF JSON (begins with '{{') nor glb (begins with 'glTF'); export the model again", name));
@@ -177,14 +177,14 @@ constexpr std::string_view kSupportedExtensions[] = {"EXT_lights_image_based",
                                                      "KHR_node_visibility",
                                                      "KHR_texture_transform"};
 
-/// Words of no JSON value, comments and commas too many are repaired.
+/// Parses JSON. Repairs comments, surplus commas and words that are not JSON values.
 nlohmann::json parseDocument(const std::string& text, const std::string& file, LoadLedger& ledger, Repairs& repairs) {
     requireJsonDepth(text, file);
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& error) {
         const MendedJson mended = mendedJson(text);
-        requireJsonDepth(mended.text, file); // a quote in a comment hid it
+        requireJsonDepth(mended.text, file); // a quote in a comment may have hidden it
         ledger.charge(parsedJsonBytes(mended.text), [&] { return file + ": its JSON"; });
         nlohmann::json parsed = nlohmann::json::parse(mended.text, nullptr, false);
         if (mended.line != 0 && !parsed.is_discarded()) {
@@ -200,7 +200,7 @@ nlohmann::json parseDocument(const std::string& text, const std::string& file, L
     }
 }
 
-/// Refuses unreadable versions before the shape is checked, because another version has another shape.
+/// Refuses unsupported versions before the structure is checked, which differs between versions.
 void checkVersion(const nlohmann::json& json, const std::string& file) {
     const auto asset = json.is_object() ? json.find("asset") : json.end();
     if (!json.is_object() || asset == json.end() || !asset->is_object())
@@ -225,7 +225,7 @@ void checkRequiredExtensions(const Document& document) {
         if (isSupported(extension)) continue;
         const std::string what =
             fmt::format("the model requires {}, which is not supported; export it without", extension);
-        // Its data cannot be read; others' can, and most change how a surface shines.
+        // Compressed data cannot be read. Other extensions can be ignored; most only change shading.
         if (extension.find("compression") != extension.npos) document.fail("/extensionsRequired", what);
         document.repair("/extensionsRequired", "it is drawn without", "{}", what);
     }

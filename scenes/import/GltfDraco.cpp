@@ -11,24 +11,24 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-// What the decoder holds at once, counted in the library's sources, 1.5.5, and rounded up.
+// Peak memory of the decoder, counted in the sources of Draco 1.5.5 and rounded up.
 constexpr std::uint64_t kDracoCornerBytes = 80; ///< the corner table, the faces and the maps between them
 constexpr std::uint64_t kSeamCornerBytes = 40;  ///< the corner table of an attribute with seams
 constexpr std::uint64_t kPointBytes = 32;       ///< the maps from points to an attribute's values
 constexpr std::uint64_t kPortableBytes = 8;     ///< a component as an integer, and its prediction
 constexpr std::uint64_t kTableBytes = 8u << 20; ///< the decoder's tables of symbols, at most 2^20 entries
-constexpr std::uint64_t kMetadataRatio = 64;    ///< blocks of the heap that a byte of metadata may become
+constexpr std::uint64_t kMetadataRatio = 64;    ///< heap bytes per byte of metadata
 constexpr std::size_t kMostComponents = 16;     ///< of an accessor's element
 constexpr std::string_view kBroken = "is broken or cut short";
 
-/// Of those that an accessor may have.
+/// Whether an accessor may have this component type.
 bool isComponentType(draco::DataType type) {
     return (type >= draco::DT_INT8 && type <= draco::DT_UINT32) || type == draco::DT_FLOAT32;
 }
 
-/// What the points of a stream take while they are decoded, of which the portable components are gone then.
+/// Memory of a stream's points while they are decoded; the portable components are freed afterwards.
 std::uint64_t pointBytes(const draco::PointCloud& points) {
-    std::uint64_t bytesEach = 0; // of a point; the stream may hold attributes that nobody names
+    std::uint64_t bytesEach = 0; // per point; includes unused attributes of the stream
     for (int i = 0; i < points.num_attributes(); ++i) {
         const draco::PointAttribute& stored = *points.attribute(i);
         const auto componentBytes = std::uint64_t(draco::DataTypeLength(stored.data_type()));
@@ -38,7 +38,7 @@ std::uint64_t pointBytes(const draco::PointCloud& points) {
     return count > 0 && bytesEach > most / count ? most : count * bytesEach;
 }
 
-/// Identifiers in the stream, by attribute.
+/// Identifiers in the stream, by attribute name.
 std::map<std::string, int> attributesOf(const tiny::Primitive& primitive) {
     return integersByName(valueAt(dracoOf(primitive), "attributes"));
 }
@@ -47,25 +47,25 @@ int viewOf(const tiny::Primitive& primitive) {
     return integerOf(valueAt(dracoOf(primitive), "bufferView"));
 }
 
-/// What of the stream is checked before the library reserves memory for it.
+/// Checks of the sizes that a stream claims, before Draco allocates memory for them.
 class Claims {
 public:
     Claims(const Document& document, const tiny::Primitive& primitive, const std::string& place)
         : document_(document), primitive_(primitive), place_(place) {}
 
-    /// At the head of a stream's triangles. Throws InputError with what is wrong.
+    /// Called at the head of a stream's triangles. Throws InputError with the reason.
     void checkTriangles(std::uint64_t faces, std::uint64_t seamTables) const {
         compareTriangles(faces);
         charge(3 * faces * (kDracoCornerBytes + seamTables * kSeamCornerBytes));
     }
 
-    /// When all attributes are known, and before their values are read. Throws InputError with what is wrong.
+    /// Called when all attributes are known, before their values are read. Throws InputError with the reason.
     void checkAttributes(const draco::PointCloud& points) const {
         compareAttributes(points);
         charge(pointBytes(points));
     }
 
-    /// Throws InputError where the accessors say other than the stream.
+    /// Throws InputError if the accessors contradict the stream.
     void compareTriangles(std::uint64_t faces) const {
         if (primitive_.indices != kNone && accessor(primitive_.indices).count != 3 * faces)
             throw InputError(fmt::format("holds {} triangles, but accessor {} says {} indices", faces,
@@ -99,8 +99,8 @@ private:
     const std::string& place_;
 };
 
-/// A decoder of the library that checks the claims on its way. Exceptions wait until the library has returned, which
-/// may be built without them.
+/// A Draco decoder that checks the claims while decoding. Exceptions are rethrown after Draco has returned, which may
+/// be built without them.
 template <typename Decoder, bool kIsEdgebreaker>
 class CheckedDecoder : public Decoder {
 public:
@@ -122,10 +122,10 @@ protected:
     }
 
 private:
-    /// The head of a stream's triangles claims faces, and of Edgebreaker, where it begins behind the kind of traversal,
-    /// attributes that have a corner table of their own. Source: Draco bitstream specification 2.2, "Connectivity".
+    /// Reads the claimed number of faces and, for Edgebreaker (after the traversal type), of attributes with separate
+    /// corner tables. Source: Draco bitstream specification 2.2, "Connectivity".
     void checkHead(const draco::DecoderBuffer& stream) const {
-        draco::DecoderBuffer head; // reads on its own
+        draco::DecoderBuffer head; // separate read position
         head.Init(stream.data_head(), std::size_t(stream.remaining_size()), stream.bitstream_version());
         std::uint8_t seamTables = 0;
         std::uint32_t vertices = 0, faces = 0;
@@ -150,7 +150,7 @@ private:
     std::exception_ptr failure_;
 };
 
-/// Throws InputError with what is wrong.
+/// Decodes a stream. Throws InputError with the reason.
 void decodeStream(std::span<const std::byte> bytes, const Claims& claims, draco::Mesh& mesh) {
     draco::DecoderBuffer stream;
     stream.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -185,7 +185,7 @@ bool convertPoint(const draco::PointAttribute& stored, draco::AttributeValueInde
     });
 }
 
-/// The values of an attribute, which is as its accessor says (Claims::checkAttributes).
+/// Packs the values of an attribute, which matches its accessor (Claims::checkAttributes).
 std::vector<std::byte> packedElements(const draco::Mesh& mesh, const draco::PointAttribute& stored,
                                       const std::string& name, const tiny::Accessor& wanted) {
     const std::size_t elementBytes = bytesOf(wanted.componentType) * std::size_t(componentsOf(wanted));

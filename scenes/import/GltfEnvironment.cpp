@@ -18,10 +18,10 @@ namespace {
 
 using std::numbers::pi;
 
-/// Relative, of all coefficients together: far above what 8 bits lose, and less than a wrong scale or axis makes.
+/// Relative tolerance over all coefficients: far above 8-bit quantisation, below the effect of a wrong scale or axis.
 constexpr double kMostDifference = 0.05;
 
-/// A face of a cube, seen from its middle: where it lies, and where its picture's right and lower edges are.
+/// A cube face seen from the centre: its axis, and the directions of its image's right and lower edges.
 struct Face {
     glm::dvec3 ahead, right, down;
 };
@@ -36,19 +36,19 @@ constexpr std::array<Face, 6> kCube{{
     {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}},
 }};
 
-/// Not of unit length: 1 along the face's axis.
+/// Direction of a position on a face, not normalised: 1 along the face's axis.
 glm::dvec3 directionOn(const Face& face, double x, double y, int side) {
     return face.ahead + (2.0 * x / side - 1.0) * face.right + (2.0 * y / side - 1.0) * face.down;
 }
 
-/// Six square faces of Rgba32Float, one below the other.
+/// A cube map of six square Rgba32Float faces, stacked vertically.
 class Cube {
 public:
     explicit Cube(const Image& faces) : faces_(faces) {}
 
     int side() const { return faces_.width; }
 
-    /// Bilinear between the centres of four texels, also across edges.
+    /// Interpolates bilinearly between four texel centres, also across edges.
     glm::dvec3 radiance(const glm::dvec3& direction) const {
         const std::size_t face = faceOf(direction);
         const glm::dvec2 place = placeOn(kCube[face], direction) - 0.5, corner = glm::floor(place);
@@ -74,7 +74,7 @@ private:
         return (across / glm::dot(face.ahead, direction) * 0.5 + 0.5) * double(side());
     }
 
-    /// Beyond an edge the texel that lies there on another face.
+    /// A texel of a face; beyond an edge the adjacent texel of another face.
     glm::dvec3 near(std::size_t face, int x, int y) const {
         if (x >= 0 && y >= 0 && x < side() && y < side()) return texel(face, x, y);
         const glm::dvec3 direction = directionOn(kCube[face], x + 0.5, y + 0.5, side());
@@ -86,8 +86,8 @@ private:
     const Image& faces_;
 };
 
-/// Linear light of a picture's texels as the extension holds it: whole numbers are sRGB, divided by their opacity
-/// (RGBD, which is 1 where a picture has none); floating point is light itself.
+/// Decodes texels to linear radiance: integers are sRGB divided by alpha (RGBD; alpha is 1 if the image has none),
+/// floating point is linear.
 template <typename Channel>
 class FaceLight {
 public:
@@ -111,7 +111,7 @@ private:
     std::vector<double> linear_; ///< by code
 };
 
-/// Stretched to the cube's side where a face is not as large.
+/// Copies an image into a face, stretched to the cube's side if it is smaller.
 void put(const Image& picture, std::size_t face, Image& cube) {
     withChannel(picture.format, [&]<typename Channel>(Channel) {
         const FaceLight<Channel> light(picture);
@@ -128,9 +128,9 @@ void put(const Image& picture, std::size_t face, Image& cube) {
 struct ImageLight {
     std::string name;
     float intensity = 1.0f;
-    glm::dvec4 rotation;                ///< x, y, z, w of a quaternion, of any length but 0
-    std::vector<glm::dvec3> irradiance; ///< by spherical harmonics up to order 2: nine
-    std::vector<int> images;            ///< of the faces +X, -X, +Y, -Y, +Z, -Z of the level that is not filtered
+    glm::dvec4 rotation;                ///< quaternion x, y, z, w, of any length except 0
+    std::vector<glm::dvec3> irradiance; ///< nine spherical harmonics coefficients, up to order 2
+    std::vector<int> images;            ///< faces +X, -X, +Y, -Y, +Z, -Z of the unfiltered level
     int sideTexels = 0;                 ///< of these faces
 };
 
@@ -163,7 +163,7 @@ ImageLight readImageLight(const Document& document, int index) {
     return light;
 }
 
-/// Of a light's first level, as large as its largest face: what the document says of that may be anything.
+/// Reads a light's first level at the size of its largest face, since specularImageSize may be wrong.
 Image readCube(Context& context, const ImageLight& light) {
     const Document& document = context.document;
     const std::string& name = light.name;
@@ -175,7 +175,7 @@ Image readCube(Context& context, const ImageLight& light) {
     for (std::size_t face = 0; face < kCube.size(); ++face) {
         const int image = light.images[face];
         std::optional<Image> picture = readableImage(context, image, kInstead);
-        // A line of texels would ask for a square of them, six times.
+        // A single row of texels would allocate six squares of its length.
         if (picture && picture->width != picture->height) {
             context.repair(fmt::format("/images/{}", image), kInstead,
                            "has {}x{} texels, and is a face of an environment, which is square", picture->width,
@@ -219,7 +219,7 @@ std::array<double, 9> harmonics(const glm::dvec3& n) {
 
 std::array<glm::dvec3, 9> irradianceOf(const Cube& cube) {
     constexpr std::array<double, 9> kCosine{pi,       2 * pi / 3, 2 * pi / 3, 2 * pi / 3, pi / 4,
-                                            pi / 4.0, pi / 4,     pi / 4,     pi / 4}; // what a clamped cosine keeps
+                                            pi / 4.0, pi / 4,     pi / 4,     pi / 4}; // transfer of a clamped cosine
     std::array<glm::dvec3, 9> sum{};
     double weights = 0.0;
     for (std::size_t face = 0; face < kCube.size(); ++face)
@@ -250,9 +250,9 @@ void noteIrradiance(Context& context, const ImageLight& light, const Cube& cube)
         context.document.file, light.name, whole > 0.0 ? 100.0 * std::sqrt(difference / whole) : 100.0));
 }
 
-/// Each texel is the mean over its solid angle.
+/// Resamples a cube in latitude and longitude; each texel is the mean over its solid angle.
 Image resampled(const Cube& cube, const glm::dmat3& cubeFromWorld, const std::string& name, int width) {
-    // Along each axis, no farther apart than texels in the corners of a cube, which are smallest.
+    // Samples per axis: no farther apart than texels in the corners of a cube, which are smallest.
     const int places = std::max(4, 2 * ((4 * cube.side() + width - 1) / width));
     Image map;
     map.name = name;

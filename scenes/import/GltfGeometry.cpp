@@ -18,7 +18,7 @@ public:
 
     bool has(const std::string& attribute) const { return attributes_->contains(attribute); }
 
-    /// Called first. A stream of KHR_draco_mesh_compression stands for the indices and for the attributes it names.
+    /// Called first. Decodes KHR_draco_mesh_compression, which replaces the indices and the attributes it names.
     void decode() {
         if (dracoOf(primitive_) == nullptr) return;
         if (primitive_.mode == kFan || isThin(primitive_))
@@ -29,7 +29,7 @@ public:
         decoded_ = context_.streams.decode(primitive_, place_, meshName_);
     }
 
-    /// How corners() make triangles: those of a stream are a list, whatever was encoded.
+    /// Primitive mode of corners(); a Draco stream always gives a triangle list.
     int mode() const { return decoded_ ? kTriangles : primitive_.mode; }
 
     void fillVertices(Mesh& mesh) {
@@ -69,7 +69,7 @@ public:
         shape.weights.clear();
     }
 
-    /// Corner numbers in drawing order: the indices, or 0, 1, 2 ... without. Some may name no vertex.
+    /// Vertex numbers in drawing order: the indices, or 0, 1, 2 ... without. Some may be out of range.
     std::vector<std::uint32_t> corners() {
         if (decoded_) return std::move(decoded_->corners);
         if (primitive_.indices >= 0) return context_.accessors.indices(primitive_.indices);
@@ -81,8 +81,8 @@ public:
         return all;
     }
 
-    /// Removes elements of `each` corners where a corner has no vertex with a finite position. 0: elements that
-    /// share corners; throws InputError then.
+    /// Removes elements of `each` corners if a corner has no vertex with a finite position. 0: elements share corners,
+    /// so this throws InputError.
     void leaveOutLost(std::vector<std::uint32_t>& corners, std::size_t each) const {
         const auto isLost = [&](std::uint32_t corner) { return this->isLost(corner); };
         const auto first = std::ranges::find_if(corners, isLost);
@@ -144,8 +144,8 @@ private:
         }
     }
 
-    /// Joints and weights of both sets. Weights that are negative or not finite count as 0, and joints without weight
-    /// as joint 0: some files have nonsense there.
+    /// Reads joints and weights of both sets. Weights that are negative or not finite count as 0, and joints without
+    /// weight as joint 0: some files have invalid values there.
     void readInfluences(Shape& shape) {
         constexpr std::size_t kSet = 4;
         bool hasNonsense = false;
@@ -193,14 +193,14 @@ private:
                                fmt::format(what, std::forward<Values>(values)...));
     }
 
-    /// The elements of an attribute that the stream holds, else nothing. Morph targets are never in it.
+    /// The elements of an attribute in the Draco stream, else nothing. The stream never holds morph targets.
     std::span<const std::byte> decoded(const std::string& attribute) const {
         if (!decoded_ || attributes_ != &primitive_.attributes) return {};
         const auto found = decoded_->attributes.find(attribute);
         return found == decoded_->attributes.end() ? std::span<const std::byte>() : found->second;
     }
 
-    /// Checked before it is read, because many may be flawed. `count`: of its elements, where it is known.
+    /// Checks an attribute before reading it, because many may be flawed. `count`: expected elements, if known.
     Elements read(const std::string& attribute, std::initializer_list<int> components,
                   std::optional<std::size_t> count = {}) {
         const int index = attributes_->at(attribute);
@@ -218,8 +218,8 @@ private:
         return read(attribute, components, vertexCount_);
     }
 
-    /// RGB gets the alpha given. Integers that were not marked normalised cannot be meant as 0..255, so they are read
-    /// as if they were.
+    /// Reads colours; RGB gets the given alpha. Integers not marked normalised cannot mean 0..255, so they are read as
+    /// normalised.
     Elements colors(float alpha) {
         Elements elements = readVertices("COLOR_0", {3, 4});
         if (!elements.normalized && elements.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT) {
@@ -262,12 +262,11 @@ private:
     std::string place_;
     std::string meshName_;
     std::size_t vertexCount_ = 0;
-    std::vector<bool> isLost_; ///< by vertex whose position is not finite; empty where all are
+    std::vector<bool> isLost_; ///< by vertex: its position is not finite; empty if all are finite
     std::optional<DracoGeometry> decoded_;
 };
 
-/// The triangles of the solids that points and lines become, each at its vertices, without normals
-/// (GltfThinSolids.cpp).
+/// Turns points and lines into triangles of thin solids, still without size and normals (GltfThinSolids.cpp).
 void makeThin(Context& context, const std::string& place, int mode, std::vector<std::uint32_t> corners,
               const Deforms& deforms, Mesh& mesh) {
     const auto who = [&] { return fmt::format("{}: {}", context.document.file, place); };

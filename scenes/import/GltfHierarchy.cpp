@@ -14,7 +14,7 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-/// A parent of every node, or -1.
+/// One parent of each node, or -1.
 std::vector<int> parentsOf(const Document& document) {
     const std::vector<tiny::Node>& nodes = document.model.nodes;
     std::vector<int> parents(nodes.size(), -1);
@@ -23,7 +23,7 @@ std::vector<int> parentsOf(const Document& document) {
     return parents;
 }
 
-/// Children that a scene lists too come last: they stand below their parents if these are drawn.
+/// Child nodes that a scene also lists come last: they stay below their parents if these are drawn.
 std::vector<int> rootsOf(const Document& document, const std::vector<int>& parents) {
     std::vector<int> roots(parents.size());
     std::iota(roots.begin(), roots.end(), 0);
@@ -61,11 +61,11 @@ bool isFinite(const glm::dmat4& matrix) {
     return true;
 }
 
-/// Of lengths and squares of them, relative: far above the rounding of matrices, and far below what shows.
+/// Relative tolerance of lengths and squared lengths: far above the rounding of matrices, far below visible
+/// differences.
 constexpr double kSameScale = 1e-4;
 
-/// By which a matrix scales lengths in all directions; nothing where that depends on the direction, or leaves double
-/// precision.
+/// The uniform scale of a matrix; nothing if it depends on the direction or exceeds double precision.
 std::optional<double> uniformScale(const glm::dmat4& matrix) {
     const double scale = glm::length(glm::dvec3(matrix[0])), square = scale * scale;
     if (!std::isfinite(square)) return std::nullopt;
@@ -78,10 +78,10 @@ std::optional<double> uniformScale(const glm::dmat4& matrix) {
     return scale;
 }
 
-/// By which all uses of a thing scale lengths; nothing where they do not share one scale for all directions.
+/// The scale shared by all uses of a mesh or material; nothing if they share no uniform scale.
 using SharedScale = std::optional<double>;
 
-/// Adds a use. One of scale 0 is not seen, and does not count.
+/// Adds a use. Scale 0 is invisible and ignored.
 void addUse(std::map<int, SharedScale>& scales, int index, const SharedScale& use) {
     if (use == 0.0) return;
     const auto [entry, isNew] = scales.try_emplace(index, use);
@@ -94,17 +94,17 @@ float scaledThickness(const Material& material, double scale) {
     return float(std::min(double(material.thicknessMetres) * scale, most));
 }
 
-/// Of the instances that show a material, where nodes show it at several scales.
+/// An instance with a material that nodes show at several scales.
 struct ScaledUse {
     MeshInstance* instance = nullptr;
     double scale = 1.0;
 };
 
-/// None where some node scales differently by direction, or a clip changes the material.
+/// The uses of a material; nothing if a node's scale is not uniform or a clip animates the material.
 std::optional<std::vector<ScaledUse>> scaledUses(Scene& scene, int material) {
     for (const RestNumber& number : scene.rig.numbers)
         if (isOfMaterial(infoOf(number.property).owner) && number.element == material) return std::nullopt;
-    std::set<int> skinned; // meshes, which are taken to be as large as they are
+    std::set<int> skinned; // meshes, which count as scale 1
     for (const Deformed& deformed : scene.rig.deformed)
         if (deformed.skin != kNone) skinned.insert(deformed.mesh);
     const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
@@ -120,10 +120,10 @@ std::optional<std::vector<ScaledUse>> scaledUses(Scene& scene, int material) {
     return uses;
 }
 
-/// Gives a material as many copies as nodes show it at other scales, each as thick as these make it. False where it
-/// cannot, and then changes nothing.
+/// Copies a material for each further scale at which nodes show it, with the thickness at that scale. Returns false
+/// without changes if it cannot.
 bool splitByScale(Context& context, int index, int material) {
-    constexpr std::size_t kMostScales = 64; // each is a material that programs read on their own
+    constexpr std::size_t kMostScales = 64; // each becomes a separate material
     Scene& scene = context.scene;
     std::optional<std::vector<ScaledUse>> uses = scaledUses(scene, material);
     if (!uses) return false;
@@ -133,7 +133,7 @@ bool splitByScale(Context& context, int index, int material) {
         if (scales.empty() || use.scale > scales.back() * (1.0 + kSameScale)) scales.push_back(use.scale);
     if (scales.size() > kMostScales) return false;
     const Material original = scene.materials[std::size_t(material)];
-    constexpr std::size_t kWhileGrowing = 2, kDigits = 24; // copies of the vector; behind the name
+    constexpr std::size_t kWhileGrowing = 2, kDigits = 24; // copies of the vector; digits after the name
     context.document.charge(kWhileGrowing * scales.size() * (sizeof(Material) + original.name.size() + kDigits),
                             "materials", index);
     auto use = uses->begin();
@@ -161,12 +161,12 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     const std::vector<bool> hasClip = nodesHiddenByClips(document.model);
     std::vector<PlacedNode> placed;
     struct Waiting {
-        int node, parent; // as PlacedNode's
+        int node, parent; // as in PlacedNode
         bool isVisible;
     };
     std::vector<Waiting> waiting; // a stack, so that a deep hierarchy does not overflow the call stack
     const auto wait = [&](const std::vector<int>& nodes, int parent, bool isVisible) {
-        constexpr std::size_t kCopies = 3; // while it grows; any number of entries may be of one node
+        constexpr std::size_t kCopies = 3; // while it grows; one node may have any number of entries
         document.charge(kCopies * nodes.size() * sizeof(Waiting), "/nodes");
         for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) waiting.push_back({*node, parent, isVisible});
     };
@@ -205,7 +205,7 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
     };
     placeTrees(rootsOf(document, parents), true);
     const std::size_t drawn = placed.size();
-    std::vector<bool> isFollowed(document.model.skins.size()); // once each
+    std::vector<bool> isFollowed(document.model.skins.size()); // each skin is followed once
     std::vector<int> climbedFrom(parents.size(), kNone);
     for (std::size_t i = 0; i < drawn; ++i) {
         const tiny::Node& node = document.model.nodes[std::size_t(placed[i].node)];
@@ -235,7 +235,7 @@ std::vector<glm::dmat4> instanceTransforms(Context& context, int node) {
         integersByName(valueAt(elementAt(document.model.nodes, node).extensions, "EXT_mesh_gpu_instancing/attributes"));
     if (attributes.empty()) document.fail(place, "holds nothing that says how many instances there are");
     const std::size_t count = elementAt(document.model.accessors, attributes.begin()->second).count;
-    // Empty where the attribute is not there.
+    // Empty if the attribute is missing.
     const auto valuesOf = [&](const char* name, int components) {
         const auto found = attributes.find(name);
         if (found == attributes.end()) return std::vector<float>();
@@ -283,7 +283,7 @@ std::map<int, std::optional<double>> thicknessScales(const Context& context, con
             for (const glm::dmat4& transform : instanced->second)
                 addUse(ofMeshes, node.mesh, uniformScale(placed.worldFromNode * transform));
     }
-    // Once for each mesh: all nodes of a file may show the same one, of many primitives.
+    // Once per mesh, not per node: all nodes of a file may show the same mesh of many primitives.
     for (const auto& [mesh, scale] : ofMeshes)
         for (const tiny::Primitive& primitive : elementAt(model.meshes, mesh).primitives)
             addUse(ofMaterials, context.variantMaterial(primitive).value_or(primitive.material), scale);

@@ -13,8 +13,8 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-/// Of memory, that pictures which cannot be read take one after the other. Each takes the time of one that can be read,
-/// and any number of them may name one file or one buffer; of those that can be read the ledger bounds the number.
+/// Limit of memory used in turn by images that cannot be read. Each takes as long as a readable one, and any number of
+/// them may name one file or buffer. The ledger bounds only the number of readable ones.
 constexpr std::uint64_t kMostUnreadableBytes = std::uint64_t{1} << 32;
 
 Image decoded(Context& context, int index) {
@@ -52,7 +52,7 @@ Image decoded(Context& context, int index) {
     return image;
 }
 
-/// Behind the names of materials whose shading is not the stated one.
+/// Name suffix of materials whose shading is not the stated one.
 std::string suffixOf(const ShownMaterial& shown) {
     std::string suffix = shown.lostSets != 0 ? ", without texture coordinates" : "";
     if (shown.shading == Shading::AsStated) return suffix;
@@ -63,7 +63,7 @@ unsigned bitOf(int texCoordSet) {
     return 1u << std::min(texCoordSet, kTexCoordSets);
 }
 
-/// The place of each vertex in the mesh's bounds, seen along the axis that its normal is nearest to.
+/// Box-projected coordinates: each vertex in the mesh's bounds, seen along the axis nearest to its normal.
 std::vector<glm::vec2> boxCoordinates(const Mesh& mesh) {
     glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
     for (const glm::vec3& position : mesh.positionsOS) {
@@ -86,7 +86,7 @@ bool isNormalMap(TextureSlot slot) {
     return slot == TextureSlot::Normal || slot == TextureSlot::ClearcoatNormal;
 }
 
-/// What an unlit material takes of a lit one.
+/// The unlit version of a lit material.
 Material unlitOf(const Material& lit) {
     Material unlit;
     unlit.name = lit.name;
@@ -122,7 +122,7 @@ std::optional<Image> readableImage(Context& context, int index, const char* inst
                           "are spent on them; mend the model's pictures, or take them out",
                           sizeText(context.unreadableBytes), sizeText(kMostUnreadableBytes));
         document.ledger.settle(mark, context.buffers.heldBytes());
-        const std::string text = error.what(), file = document.file + ": "; // which warn() names itself
+        const std::string text = error.what(), file = document.file + ": "; // warn() adds this itself
         context.warn(text.substr(text.starts_with(file) ? file.size() : 0) + instead);
         return std::nullopt;
     }
@@ -244,8 +244,8 @@ void Materials::takeDiffuse(const SpecularGlossiness& stored, const std::string&
         use(stored.diffuseTexture, TextureSlot::BaseColor, place + "/diffuseTexture", lostSets);
 }
 
-/// With an index of refraction of 0 a dielectric reflects all light, and its tint is what the extension calls specular:
-/// both give F0, with F90 = 1, and what is reflected is taken from the diffuse part.
+/// Converts to a dielectric with an index of refraction of 0, which reflects all light, tinted by the extension's
+/// specular colour. In both models that is F0, F90 is 1, and the diffuse part loses the reflected one.
 /// Source: KHR_materials_ior, "Implementation": its mode for specular-glossiness materials.
 void Materials::convertSpecularGlossiness(const SpecularGlossiness& stored, const std::string& place, unsigned lostSets,
                                           Material& material) {

@@ -24,8 +24,8 @@ nlohmann::json taken(nlohmann::json& document, const char* key) {
     return value;
 }
 
-/// Gives accessors without buffer view an extra one, the last: tinygltf 2.7 refuses indices without. Returns whether
-/// there are any. Source: tinygltf, issues 324 and 378.
+/// Gives accessors without a buffer view an extra one, the last: tinygltf 2.7 refuses index accessors without one.
+/// Returns whether it added one. Source: tinygltf, issues 324 and 378.
 bool addMissingView(nlohmann::json& document) {
     if (!document.contains("accessors")) return false;
     nlohmann::json& views = document["bufferViews"];
@@ -39,7 +39,7 @@ bool addMissingView(nlohmann::json& document) {
     return isMissing;
 }
 
-/// tinygltf leaves out channels without node, as those of KHR_animation_pointer are.
+/// Adds node -1 to channels without a node, as of KHR_animation_pointer, which tinygltf would drop.
 void addMissingNodes(nlohmann::json& document) {
     if (!document.contains("animations")) return;
     for (nlohmann::json& animation : document["animations"])
@@ -55,7 +55,7 @@ TextureInfo textureInfo(int texture, int texCoordSet, const tiny::Value* transfo
     return info;
 }
 
-/// Of one of tinygltf's three kinds.
+/// From one of tinygltf's three texture info types.
 TextureInfo textureInfo(const auto& stored) {
     return textureInfo(stored.index, stored.texCoord, valueAt(stored.extensions, "KHR_texture_transform"));
 }
@@ -84,7 +84,7 @@ SpecularGlossiness specularGlossinessOf(const tiny::Value* stored) {
             textureInfo(valueAt(stored, "specularGlossinessTexture"))};
 }
 
-/// Takes all numbers of extensions that a member of the material holds.
+/// Reads all extension values that have a member in the material.
 void readExtensions(const tiny::ExtensionMap& extensions, Material& material) {
     for (const AnimatedPropertyInfo& property : animatedProperties()) {
         if (property.owner != AnimatedOwner::Material || !property.path.starts_with(kExtensions)) continue;
@@ -101,7 +101,7 @@ void readExtensions(const tiny::ExtensionMap& extensions, Material& material) {
 
 tiny::Model tinyModel(nlohmann::json document, const std::string& file, LoadLedger& ledger) {
     taken(document, "buffers");
-    document["asset"]["version"] = "2.0"; // whatever 2.x it says
+    document["asset"]["version"] = "2.0"; // for any version 2.x
     const nlohmann::json images = taken(document, "images");
     const bool hasExtraView = addMissingView(document);
     addMissingNodes(document);
@@ -237,7 +237,7 @@ StoredMaterial::StoredMaterial(const tiny::Material& stored) {
     emissiveFactor = vectorOf(stored.emissiveFactor, emissiveFactor);
     emissiveStrength =
         float(numberOf(valueAt(stored.extensions, "KHR_materials_emissive_strength/emissiveStrength"), 1.0));
-    // An unlit material is its base colour; the rest is a fallback for programs that do not know the extension.
+    // An unlit material is its base colour; the rest is a fallback for programs that do not support the extension.
     if (stored.extensions.contains("KHR_materials_unlit")) {
         surface.model = MaterialModel::SingleColor;
         return;

@@ -13,23 +13,22 @@
 #include <tiny_gltf.h>
 #undef tinygltf
 
-/// What the importer makes of tinygltf's objects, which checkedProperties() checked. Indices are kNone
-/// where the document has none.
+/// Access to tinygltf's objects, which checkedProperties() has checked. Missing indices are kNone.
 namespace tessera::scenes::gltf {
 
 namespace tiny = tessera_tinygltf;
 
-/// Checks the properties of a document that its scene uses (GltfSchema.cpp): JSON types, ranges, choices, and that
-/// each index names an element. Clamps numbers, and leaves out other flaws with the least that is nothing without them.
-/// Returns a document of these properties alone: tinygltf ignores values of a wrong type without a message, keeps the
+/// Checks the properties of a document that its scene uses (GltfSchema.cpp): JSON types, ranges, choices, and that each
+/// index refers to an element. Clamps numbers; removes other flawed values with the smallest object that needs them.
+/// Returns a document with only these properties: tinygltf ignores values of a wrong type without a message, keeps the
 /// low 32 bits of integers, and copies all other values. Integers written with a decimal point (24.0) become integers.
-/// Moves texts out of `document`. Charges the ledger for tinygltf's copy of the result. Throws InputError "file:
-/// /json/pointer: what" where the load is strict.
+/// Moves strings out of `document`. Charges the ledger for tinygltf's copy of the result. Throws InputError "file:
+/// /json/pointer: what" if the load is strict.
 nlohmann::json checkedProperties(nlohmann::json& document, const std::string& file, LoadLedger& ledger,
                                  Repairs& repairs);
 
 /// Parses a document of checkedProperties() by tinygltf. `buffers` stays empty and images have only name, uri and
-/// bufferView, because tinygltf reads and decodes all of them at once. Throws InputError with tinygltf's message.
+/// bufferView, because tinygltf would read and decode all of them at once. Throws InputError with tinygltf's message.
 tiny::Model tinyModel(nlohmann::json checked, const std::string& file, LoadLedger& ledger);
 
 template <typename Element>
@@ -39,12 +38,12 @@ const Element& elementAt(const std::vector<Element>& elements, int index) {
 
 // ---- Values of extensions ------------------------------------------------------------------------------------------
 
-/// The value at a path of keys; null where there is none. Objects and arrays that are empty are not there.
+/// The value at a path of keys; null if there is none. Empty objects and arrays count as missing.
 const tiny::Value* valueAt(const tiny::Value* object, std::string_view path);
-/// The path begins with the extension.
+/// The path begins with the extension's name.
 const tiny::Value* valueAt(const tiny::ExtensionMap& extensions, std::string_view path);
 
-// Of a value that may be null.
+// The content of a value, which may be null.
 double numberOf(const tiny::Value* value, double otherwise);
 int integerOf(const tiny::Value* value, int otherwise = kNone);
 std::string stringOf(const tiny::Value* value);
@@ -52,7 +51,7 @@ std::span<const tiny::Value> elementsOf(const tiny::Value* value);
 std::vector<double> numbersOf(const tiny::Value* value);
 std::map<std::string, int> integersByName(const tiny::Value* value);
 
-/// `otherwise` where there are no numbers.
+/// Returns `otherwise` if there are no numbers.
 template <glm::length_t kLength, typename Number>
 glm::vec<kLength, Number> vectorOf(const std::vector<double>& numbers, glm::vec<kLength, Number> otherwise) {
     for (glm::length_t i = 0; i < kLength && !numbers.empty(); ++i)
@@ -78,11 +77,11 @@ int lightOf(const tiny::Node& node);
 const tiny::Value* dracoOf(const tiny::Primitive& primitive);
 /// KHR_animation_pointer; empty without.
 std::string pointerOf(const tiny::AnimationChannel& channel);
-/// Numbers of an element; 16: a 4x4 matrix, 0: another one.
+/// Components per element; 16: a 4x4 matrix, 0: another matrix.
 int componentsOf(const tiny::Accessor& accessor);
 Sampler samplerOf(const tiny::Sampler& stored);
 
-/// The places at which a material uses a texture, in the order in which images are imported.
+/// A texture property of a material. The order of the table is the order of image import.
 struct TexturePlace {
     std::string_view path;
     TextureSlot slot;
@@ -114,7 +113,7 @@ struct TextureInfo {
     TextureTransform transform;
 };
 
-/// KHR_materials_pbrSpecularGlossiness, which takes the place of pbrMetallicRoughness.
+/// KHR_materials_pbrSpecularGlossiness, which replaces pbrMetallicRoughness.
 struct SpecularGlossiness {
     glm::vec4 diffuse{1.0f};
     glm::vec3 specular{1.0f};
@@ -124,10 +123,10 @@ struct SpecularGlossiness {
 };
 
 struct StoredMaterial {
-    Material surface;                                            ///< but its textures
-    std::array<TextureInfo, std::size(kTexturePlaces)> textures; ///< as kTexturePlaces
+    Material surface;                                            ///< without its textures
+    std::array<TextureInfo, std::size(kTexturePlaces)> textures; ///< in the order of kTexturePlaces
     glm::vec3 emissiveFactor{0.0f};
-    float emissiveStrength = 1.0f; ///< in surface.emissive, as emissiveFactor is
+    float emissiveStrength = 1.0f; ///< already in surface.emissive, like emissiveFactor
     std::optional<SpecularGlossiness> specularGlossiness;
 
     explicit StoredMaterial(const tiny::Material& stored);

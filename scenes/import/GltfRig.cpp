@@ -48,7 +48,7 @@ std::vector<float> Rigging::restWeights(int index) const {
     return weights;
 }
 
-/// Takes no time that grows with the mesh: all nodes of a file may show the same large one.
+/// Takes constant time per node: all nodes of a file may show the same large mesh.
 Deforms Rigging::deformsOf(int index) const {
     const tiny::Node& node = elementAt(context_.document.model.nodes, index);
     const auto mesh = std::size_t(node.mesh);
@@ -99,7 +99,7 @@ int Rigging::skinOf(int index) {
     if (!isNew) return entry->second;
     const Document& document = context_.document;
     const tiny::Skin& stored = elementAt(document.model.skins, index);
-    // A pose has a matrix for each, too.
+    // Includes the matrices of a pose.
     document.charge(stored.joints.size() * (sizeof(int) + sizeof(glm::dmat4) + sizeof(glm::dmat4x3)), "skins", index);
     Skin skin;
     skin.name = nameOr(stored.name, "skin", index);
@@ -144,7 +144,7 @@ void Rigging::addDeformed(int index) {
     deformed.node = deformed.standsAt = sceneNodes_[std::size_t(index)];
     if (deforms.byTargets) {
         std::vector<float> rest = restWeights(index);
-        // A pose has them too, in double precision.
+        // Includes the weights of a pose, in double precision.
         document.charge(2 * sizeof(rest) + rest.size() * (sizeof(float) + sizeof(double)), "nodes", index);
         deformed.weights = weights_[index] = int(scene.rig.weights.size());
         scene.rig.weights.push_back(std::move(rest));
@@ -170,7 +170,7 @@ void Rigging::addDeformed(int index) {
     }
 }
 
-/// A skinned mesh ignores the transform of its node and all above, so it stands at a root.
+/// Adds a root node per skinned mesh, which ignores the transforms of its node and ancestors.
 void Rigging::addSkinnedNodes() {
     Scene& scene = context_.scene;
     for (const Standing& standing : standing_) {
@@ -197,7 +197,7 @@ void Rigging::addCamera(int index) {
     cameras_[elementAt(context_.document.model.nodes, index).camera].push_back(element);
 }
 
-/// Keeps those that a clip may move.
+/// Keeps the lights and cameras that a clip may move.
 void Rigging::carryAll() {
     Scene& scene = context_.scene;
     std::vector<bool> moves(scene.nodes.size());
@@ -231,7 +231,7 @@ std::vector<bool> nodesHiddenByClips(const tiny::Model& model) {
 
 void Rigging::findHiddenLights() {
     const std::vector<Node>& nodes = context_.scene.nodes;
-    std::vector<int> hiddenBy(nodes.size(), kNone); // of the document, by node of the scene
+    std::vector<int> hiddenBy(nodes.size(), kNone); // document node, by scene node
     for (std::size_t index = 0; index < sceneNodes_.size(); ++index)
         if (isHiddenByClips_[index] && sceneNodes_[index] != kNone)
             hiddenBy[std::size_t(sceneNodes_[index])] = int(index);
@@ -241,7 +241,7 @@ void Rigging::findHiddenLights() {
         if (const int by = hiddenBy[std::size_t(light.node)]; by != kNone) lightsHidden_[by].push_back(light.element);
 }
 
-/// Scales the node to nothing, and lights below, which have no size, to no intensity.
+/// Multiplies the node's scale and the intensity of the lights below, which a scale does not affect.
 Rigging::Animated Rigging::visibilityOf(int index) {
     Animated animated{AnimatedProperty::NodeVisibility, 1};
     const glm::vec3 scale(scaleOf(elementAt(context_.document.model.nodes, index)));
@@ -253,7 +253,7 @@ Rigging::Animated Rigging::visibilityOf(int index) {
     return animated;
 }
 
-/// The pose at rest, too, is that of the clips: what is hidden is in the scene.
+/// Hides, in the rest pose, invisible nodes that clips may show: they are part of the scene.
 void Rigging::hideAtRest() {
     for (const auto& [index, number] : nodes_) {
         if (!isHiddenByClips_[std::size_t(index)] || isVisible(elementAt(context_.document.model.nodes, index)))

@@ -7,45 +7,44 @@
 
 namespace tessera::scenes::gltf {
 
-// ---- What channels of animations point at: JSON pointers of KHR_animation_pointer, and paths of nodes as such -------
+// ---- Targets of animation channels: JSON pointers (KHR_animation_pointer), and paths of nodes as pointers -----------
 
 inline constexpr std::string_view kNodesPointer = "/nodes/";
 inline constexpr std::string_view kMaterialsPointer = "/materials/";
 inline constexpr std::string_view kLightsPointer = "/extensions/KHR_lights_punctual/lights/";
 inline constexpr std::string_view kCamerasPointer = "/cameras/";
 
-/// Cuts "/nodes/" and a number from the begin of "/nodes/3/translation", and the slash after.
+/// Removes "/nodes/" (`array`), an index and a slash from the start of "/nodes/3/translation"; returns the index.
 std::optional<std::size_t> cutIndex(std::string_view& pointer, std::string_view array);
 
-/// A pointer to what a channel changes, the same for all channels that change the same thing of the document.
+/// The pointer to a channel's target, equal for all channels with the same target in the document.
 std::string changedBy(const tiny::AnimationChannel& channel);
 
-/// The node whose weights a channel changes, by number of the document; none: it changes something else.
+/// The document's node whose weights a channel animates; empty for other channels.
 std::optional<std::size_t> nodeOfWeights(const tiny::AnimationChannel& channel);
 
-/// By node: whether a channel hides and shows it, which a node with a matrix has no scale for.
+/// By node: whether a channel animates its visibility. False with a matrix, which has no scale to animate.
 std::vector<bool> nodesHiddenByClips(const tiny::Model& model);
 
-/// A pointer without its numbers, which is the same for all things of a kind: "/cameras/*/orthographic/xmag".
+/// A pointer with "*" for its indices, equal for all targets of a kind: "/cameras/*/orthographic/xmag".
 std::string kindOf(std::string_view pointer);
 
 // ---- The rig -------------------------------------------------------------------------------------------------------
 
-/// Builds the scene's rig: what deforms meshes (GltfRig.cpp), clips, and what in the scene their channels change
-/// (GltfClips.cpp).
+/// Builds the scene's rig: mesh deformation (GltfRig.cpp), clips and the targets of their channels (GltfClips.cpp).
 class Rigging {
 public:
-    /// `sceneNodes` is by node of the document the scene's, kNone where the scene does not have it.
+    /// `sceneNodes`: scene node by document node, kNone if it is not in the scene.
     Rigging(Context& context, Materials& materials, std::vector<int> sceneNodes);
 
-    /// What deforms the meshes of a node.
+    /// How the meshes of a node are deformed.
     Deforms deformsOf(int node) const;
-    /// Gives a node instances of its own of its mesh deformed.
+    /// Gives a node separate, deformed instances of its mesh.
     void addDeformed(int node);
-    /// Called when a node's camera or light was imported.
+    /// Called after a node's camera or light was imported.
     void addCamera(int node);
     void addLight(int node);
-    /// Called when all nodes are in the scene: adds those that skinned meshes stand at, and clips.
+    /// Called when all nodes are in the scene: adds the nodes of skinned meshes, and clips.
     void finish();
 
 private:
@@ -55,19 +54,19 @@ private:
         const tiny::Primitive* primitive = nullptr;
         unsigned lostSets = 0; ///< as ShownMaterial::lostSets
     };
-    /// An instance whose node is not there yet.
+    /// An instance whose node is added later.
     struct Standing {
         std::size_t deformed = 0;
         MeshInstance instance;
     };
-    /// What a channel changes.
+    /// The targets of a channel in the scene.
     struct Animated {
         AnimatedProperty property{};
-        std::size_t width = 0;         ///< numbers of a value
+        std::size_t width = 0;         ///< numbers per value
         std::vector<int> targets = {}; ///< as AnimationChannel::target
-        double scale = 1.0;            ///< of the document's values
-        /// Instead of targets: what EmissiveStrength and NodeVisibility multiply, with its values where no clip changes
-        /// it.
+        double scale = 1.0;            ///< factor of the document's values
+        /// Instead of targets: a property that EmissiveStrength or NodeVisibility multiplies, with its unanimated
+        /// values.
         struct Multiplied {
             AnimatedProperty property{};
             int target = 0; ///< as AnimationChannel::target
@@ -92,12 +91,12 @@ private:
     std::optional<Animated> animatedOfMaterial(std::size_t index, std::string_view path);
     std::optional<Animated> animatedOfTexture(std::size_t material, std::string_view path);
     std::optional<Animated> animatedOfCamera(std::size_t index, std::string_view path);
-    /// The node whose weights a channel changes though its mesh has no morph targets; none: another channel.
+    /// The node whose weights a channel animates although its mesh has no morph targets; else empty.
     std::optional<int> nodeWithoutTargets(const tiny::AnimationChannel& channel) const;
     void warnOfMorphless();
     int restNode(int node);
     int restNumber(AnimatedProperty property, int element, TextureSlot slot = TextureSlot::Count);
-    /// Notes that channels of a pointer are left out.
+    /// Records left-out channels of a pointer for the warning.
     void leaveOut(const std::string& pointer, std::size_t channels);
     void warnOfLeftOut();
     AnimationSampler sampler(int animation, int index, const Animated& animated);
@@ -108,22 +107,22 @@ private:
     Context& context_;
     Materials& materials_;
     std::vector<int> sceneNodes_;
-    std::vector<bool> hasAnimatedWeights_;                                       ///< by node of the document
-    std::vector<std::size_t> targetCounts_;                                      ///< by mesh of the document
-    std::vector<bool> isMorphed_;                                                ///< the same: by its own weights
-    std::map<std::tuple<int, Deforms, std::size_t>, std::vector<Drawn>> shapes_; ///< by mesh and number of joints
-    std::map<int, int> skins_;                                              ///< of the rig, by those of the document
-    std::map<int, int> weights_, nodes_;                                    ///< of the rig, by nodes of the document
-    std::map<std::tuple<AnimatedProperty, int, TextureSlot>, int> numbers_; ///< of the rig
+    std::vector<bool> hasAnimatedWeights_;  ///< by node of the document
+    std::vector<std::size_t> targetCounts_; ///< by mesh of the document
+    std::vector<bool> isMorphed_;           ///< the same: morphed by its default weights
+    std::map<std::tuple<int, Deforms, std::size_t>, std::vector<Drawn>> shapes_; ///< by mesh, deforms and joints
+    std::map<int, int> skins_;                                                   ///< rig skin by document skin
+    std::map<int, int> weights_, nodes_;                                         ///< rig index by document node
+    std::map<std::tuple<AnimatedProperty, int, TextureSlot>, int> numbers_;      ///< number of the rig
     std::vector<Standing> standing_;
-    std::map<int, std::vector<int>> lights_, cameras_; ///< of the scene, by those of the document
+    std::map<int, std::vector<int>> lights_, cameras_; ///< scene indices by document index
     std::vector<Carried> carriedLights_, carriedCameras_;
     std::vector<bool> isHiddenByClips_;               ///< nodesHiddenByClips()
-    std::map<int, std::vector<int>> lightsHidden_;    ///< of the scene, by the next node above that clips hide and show
-    std::size_t leftOut_ = 0;                         ///< channels
-    std::map<std::string, std::string> leftOutPaths_; ///< the first of each kind, by its kind
-    bool hasMoreLeftOut_ = false;                     ///< kinds than are named
-    std::set<int> morphless_;                         ///< nodes of nodeWithoutTargets(), of the document
+    std::map<int, std::vector<int>> lightsHidden_;    ///< scene lights, by nearest ancestor that clips hide
+    std::size_t leftOut_ = 0;                         ///< left-out channels
+    std::map<std::string, std::string> leftOutPaths_; ///< the first pointer of each kind, by kind
+    bool hasMoreLeftOut_ = false;                     ///< more kinds than the warning names
+    std::set<int> morphless_;                         ///< document nodes of nodeWithoutTargets()
 };
 
 } // namespace tessera::scenes::gltf

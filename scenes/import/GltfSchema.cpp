@@ -7,16 +7,14 @@
 namespace tessera::scenes::gltf {
 namespace {
 
-/// The properties that the importer reads. A line that is not indented begins an object, and properties of it follow:
-/// the path of keys to each, with "!" where it is required in the object above it, "?key=value" where it is in one with
-/// this text, or "+" where the object is nothing without it if it is there, and its type. Behind the name of an object
-/// stands what takes the place of a flawed one, if it needs anything. Types are text, label (a text that is empty where
-/// it is none), flag, object (whose content is not read), number, int (of 32 bits),
-/// size (up to 2^53), index of an element of an array, choice (a text) and code (an integer) of some, and objects.
-/// Behind a type stand the arrays of it, innermost first: [3] of three elements, [] of any number, [~] without the
-/// flawed ones, [?] with stand-ins for these, {} for an object of any keys. Behind a colon stand the bounds:
-/// least..most, >least, %divisor, an array, or the choices. Source: glTF 2.0 specification, section 5, and the
-/// extensions' schemas.
+/// The properties that the importer reads. A line without indent begins an object; after its name follows the stand-in
+/// for a flawed one, if that needs members. The indented lines list its properties: path of keys, flag and type. Flags:
+/// "!" required in the object above, "?key=value" required if that key has this text, "+" optional, but a flaw in it
+/// invalidates the object. Types: text, label (a text, empty if it is no text), flag, object (whose content is not
+/// read), number, int (32 bits), size (up to 2^53), index (into an array), choice (of texts), code (one of several
+/// integers), and objects. Array suffixes, innermost first: [3] three elements, [] any number, [~] flawed ones removed,
+/// [?] flawed ones replaced by stand-ins, {} an object with any keys. After a colon: least..most, >least, %divisor, the
+/// array of an index, or the choices. Source: glTF 2.0 specification, section 5, and the extensions' schemas.
 constexpr std::string_view kProperties = R"(
 Document
  asset/version text; asset/generator text; extensionsUsed text[~]; extensionsRequired text[~]
@@ -144,7 +142,7 @@ void readNumber(std::string_view text, auto& number) {
     std::from_chars(text.data(), text.data() + text.size(), number);
 }
 
-/// What tinygltf makes of an element of an array, at most: all but `nodes` (GltfModel.cpp) grow. Others become values.
+/// Peak memory of tinygltf per array element: all arrays but `nodes` (GltfModel.cpp) grow. Others become values.
 const std::map<std::string_view, std::uint64_t>& elementBytes() {
     static const std::map<std::string_view, std::uint64_t> kBytes{
         {"Document", 0},
@@ -213,7 +211,7 @@ Property Schema::propertyOf(std::string_view text) {
 
 Type Schema::typeOf(std::string_view text) {
     constexpr std::string_view kKinds[] = {"text", "label", "flag",  "object", "number",
-                                           "int",  "size",  "index", "choice", "code"}; // as Kind
+                                           "int",  "size",  "index", "choice", "code"}; // in the order of Kind
     Type type;
     const std::string_view name = cut(text, "[{:");
     type.kind = Kind(std::ranges::find(kKinds, name) - std::begin(kKinds));

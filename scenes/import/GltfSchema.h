@@ -6,15 +6,15 @@
 
 #include "scenes/import/GltfModel.h"
 
-/// The properties that the importer reads (GltfSchema.cpp), as objects that a document is checked by.
+/// Schema of the properties that the importer reads (GltfSchema.cpp), which documents are checked against.
 namespace tessera::scenes::gltf {
 
 using Json = nlohmann::json;
 
 inline constexpr double kMaxInt = std::numeric_limits<int>::max(), kMaxFloat = std::numeric_limits<float>::max();
 inline constexpr double kMaxInteger = 9007199254740992.0; ///< 2^53: JSON numbers are exact to here
-inline constexpr std::uint64_t kHeapBlockBytes = 48;      ///< beside the content: a block of the heap, a map's node
-inline constexpr std::uint64_t kGrowth = 3;               ///< copies while an array that doubles is copied
+inline constexpr std::uint64_t kHeapBlockBytes = 48;      ///< overhead of a heap block, such as a map node
+inline constexpr std::uint64_t kGrowth = 3;               ///< copies while a doubling array grows
 inline constexpr std::uint64_t kMemberBytes = 2 * kHeapBlockBytes + sizeof(tiny::Value); ///< a named value of tinygltf
 
 enum class Kind { Text, Label, Flag, Object, Number, Int, Size, Index, Choice, Code, Struct };
@@ -27,7 +27,7 @@ struct Type {
     double least = -kMaxFloat, most = kMaxFloat;
     bool isMoreThanLeast = false;
     std::int64_t divisor = 1;
-    std::string_view array; ///< of an index, by its path in the document
+    std::string_view array; ///< that an index refers to, by its path in the document
     std::vector<std::string_view> choices;
     const Struct* object = nullptr;
 };
@@ -36,27 +36,27 @@ struct Property {
     std::string_view path;
     std::vector<std::string_view> keys;
     bool isRequired = false;
-    bool isWhole = false; ///< a flaw in it is one of the object
+    bool isWhole = false; ///< a flaw in it invalidates the object
     bool isExtension = false;
-    std::string_view conditionKey, condition; ///< where it is required, too
+    std::string_view conditionKey, condition; ///< required if this key has this text
     Type type;
 };
 
 struct Struct {
-    std::uint64_t bytes = sizeof(tiny::Value); ///< of what tinygltf makes of an element of an array
+    std::uint64_t bytes = sizeof(tiny::Value); ///< memory of tinygltf per array element
     bool isValue = true;
     std::vector<Property> properties;
-    Json standIn = Json::object(); ///< in the place of an element that is flawed or not used
+    Json standIn = Json::object(); ///< replaces an element that is flawed or not used
 
     bool canBeFlawed() const {
         return std::ranges::any_of(properties, [](const Property& property) { return property.isWhole; });
     }
 };
 
-/// Parts of a text between separators.
+/// Splits a text at separators.
 std::vector<std::string_view> split(std::string_view text, std::string_view separator);
 
-/// Objects by name.
+/// The schema: objects by name.
 class Schema {
 public:
     Schema();

@@ -14,10 +14,10 @@ namespace {
 /// Corners of triangles, counter-clockwise seen from outside.
 using SolidTriangles = std::array<std::array<std::uint8_t, 3>, kCornersOfSolid / 3>;
 
-/// Of corners 0 to 2 around a segment's start, counter-clockwise seen against its direction, and 3 to 5 around its end.
+/// Corners 0 to 2 lie around a segment's start, counter-clockwise against its direction, and 3 to 5 around its end.
 constexpr SolidTriangles kPrismTriangles{
     {{0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {2, 0, 3}, {2, 3, 5}, {3, 4, 5}}};
-/// Of the corners +X, -X, +Y, -Y, +Z, -Z.
+/// The corners are +X, -X, +Y, -Y, +Z, -Z.
 constexpr SolidTriangles kOctahedronTriangles{
     {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}}};
 
@@ -28,16 +28,16 @@ constexpr bool isAtEnd(std::uint8_t prismCorner) {
     return prismCorner >= 3;
 }
 
-/// In what a place of the largest coordinate is rounded to, half a solid's width is at least 8 steps.
+/// Minimum half width of a solid relative to the largest coordinate: at least 8 float steps there.
 constexpr double kLeastShareOfCoordinate = 0x1p-20;
 
-/// Places beyond single precision are refused as too far away wherever a scene is checked.
+/// Clamps positions to single precision; scene checks refuse clamped ones as too far away.
 glm::vec3 roundedPlace(const glm::dvec3& place) {
     constexpr double kMost = std::numeric_limits<float>::max();
     return glm::vec3(glm::clamp(place, -kMost, kMost));
 }
 
-/// From the middle to the corners of an octahedron that is `width` from corner to opposite corner.
+/// Offsets from the centre to the corners of an octahedron with `width` between opposite corners.
 std::array<glm::dvec3, 6> octahedron(double width) {
     std::array<glm::dvec3, 6> corners{};
     for (std::size_t i = 0; i < corners.size(); ++i)
@@ -45,7 +45,7 @@ std::array<glm::dvec3, 6> octahedron(double width) {
     return corners;
 }
 
-/// From a segment's ends to the corners of its prism, whose sides are `width` wide.
+/// Offsets from a segment's ends to the corners of its prism, whose sides are `width` wide.
 std::array<glm::dvec3, 6> prism(const glm::dvec3& along, double width) {
     const glm::dvec3 direction = directionOf(along).value_or(glm::dvec3(0.0, 0.0, 1.0)), size = glm::abs(direction);
     const bool isLeastX = size.x <= size.y && size.x <= size.z;
@@ -60,8 +60,8 @@ std::array<glm::dvec3, 6> prism(const glm::dvec3& along, double width) {
     return corners;
 }
 
-/// Moves the corners of a mesh of cornersOfSolids(), whose vertices no two triangles share, to where the solids have
-/// them, and gives each triangle its normal. The solids' width is more than 0.
+/// Moves the unshared vertices of a mesh of cornersOfSolids() to the corners of the solids, and sets each triangle's
+/// normal. The width of the solids must be positive.
 void inflate(Mesh& mesh, int mode, double widthOS) {
     const bool isPoints = mode == kPoints;
     const SolidTriangles& triangles = isPoints ? kOctahedronTriangles : kPrismTriangles;
@@ -97,7 +97,7 @@ double largestScale(const glm::dmat4& matrix) {
     return largest;
 }
 
-/// How large a scene is, by the boxes of its meshes, and by how much its meshes are scaled at most.
+/// The bounds of a scene by the boxes of its meshes, and the largest scale of each mesh.
 struct Sizes {
     Box3 boundsWS;
     std::map<int, double> scales; ///< by mesh
@@ -105,14 +105,14 @@ struct Sizes {
 
 Sizes sizesOf(const Scene& scene) {
     const std::vector<glm::dmat4> worldFromNode = worldFromNodes(scene);
-    std::map<int, glm::dmat4> skinned; // world-from-mesh of what follows the first joint
+    std::map<int, glm::dmat4> skinned; // world-from-mesh of skinned meshes, by their first joint
     for (const Deformed& deformed : scene.rig.deformed) {
         if (deformed.skin == kNone) continue;
         const Skin& skin = scene.rig.skins[std::size_t(deformed.skin)];
         if (!skin.joints.empty())
             skinned[deformed.mesh] = worldFromNode[std::size_t(skin.joints.front())] * skin.jointFromBind.front();
     }
-    std::vector<std::optional<Box3>> boxesOS(scene.meshes.size()); // once a mesh, however many nodes show it
+    std::vector<std::optional<Box3>> boxesOS(scene.meshes.size()); // computed once per mesh, however many nodes show it
     const auto boxOf = [&](int mesh) -> const Box3& {
         std::optional<Box3>& box = boxesOS[std::size_t(mesh)];
         if (box) return *box;
@@ -153,8 +153,8 @@ void unshare(std::vector<T>& values, const std::vector<std::uint32_t>& indices, 
     values = std::move(own);
 }
 
-/// Gives every triangle three vertices of its own and its geometric normal; tangents are dropped, as they belonged to
-/// other normals. A triangle without area gets an arbitrary unit normal.
+/// Gives every triangle three unshared vertices and its geometric normal; drops tangents, which belonged to other
+/// normals. A triangle without area gets an arbitrary unit normal.
 void makeFlat(Shape& shape) {
     Mesh& mesh = shape.rest;
     shape.isFlat = true;
@@ -179,8 +179,8 @@ void makeFlat(Shape& shape) {
     for (std::size_t i = 0; i < mesh.indices.size(); ++i) mesh.indices[i] = std::uint32_t(i);
 }
 
-/// Makes normals unit length. Those that cannot be (zero, not finite) become the normal of a triangle at the vertex.
-/// Returns how many these were.
+/// Normalises normals. Invalid ones (zero, not finite) become the normal of a triangle at the vertex. Returns the
+/// number of invalid ones.
 std::size_t repairNormals(Mesh& mesh) {
     std::vector<bool> isBroken(mesh.normalsOS.size(), false);
     std::size_t brokenCount = 0;
@@ -197,7 +197,7 @@ std::size_t repairNormals(Mesh& mesh) {
     return brokenCount;
 }
 
-/// Makes tangents unit length and their w +1 or -1. False when one cannot be.
+/// Normalises tangents and makes their w +1 or -1. Returns false if one has no direction or no sign.
 bool normalizeTangents(Mesh& mesh) {
     for (glm::vec4& tangentOS : mesh.tangentsOS) {
         const std::optional<glm::dvec3> direction = directionOf(glm::vec3(tangentOS));
@@ -245,7 +245,7 @@ void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
     const Sizes sizes = sizesOf(scene);
     const glm::dvec3 sidesWS = sizes.boundsWS.empty() ? glm::dvec3(0.0) : sizes.boundsWS.max - sizes.boundsWS.min;
     const double longestWS = std::max({sidesWS.x, sidesWS.y, sidesWS.z});
-    // A single point has no size: it is as large as in a model of 1 m.
+    // A single point has no extent: it is as large as in a model of 1 m.
     const double lineWidthWS = kLineWidthShare * (longestWS > 0.0 ? longestWS : 1.0);
     std::size_t points = 0;
     for (const auto& [mesh, mode] : thinModes)
@@ -255,7 +255,7 @@ void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
         const auto scale = sizes.scales.find(mesh);
         return scale == sizes.scales.end() ? 0.0 : scale->second;
     };
-    std::map<int, double> shapeScales; // by shape, of all meshes that are it deformed
+    std::map<int, double> shapeScales; // largest by shape, over all its deformed meshes
     for (const Deformed& deformed : scene.rig.deformed) {
         double& scale = shapeScales[deformed.shape];
         scale = std::max(scale, scaleOf(deformed.mesh));
@@ -308,7 +308,7 @@ std::vector<std::uint32_t> trianglesOf(int mode, std::vector<std::uint32_t> corn
 
 void finishNormals(Context& context, const std::string& place, Shape& shape) {
     Mesh& mesh = shape.rest;
-    // What is added to attributes that are not there is nothing.
+    // Drops morphed attributes that the mesh lacks.
     for (MorphTarget& target : shape.targets) {
         if (mesh.colors.empty()) target.colors.clear();
         for (std::size_t set = 0; set < mesh.texCoords.size(); ++set)

@@ -13,8 +13,8 @@
 namespace tessera::scenes {
 namespace {
 
-/// Deflate reaches 1032 bytes per byte, and a grey texel may have one bit; Huffman codes of a JPEG's blocks and runs of
-/// the others stay below.
+/// Limit of texels per byte of a file. Deflate reaches 1032 bytes per byte, and a grey texel may have one bit; Huffman
+/// codes of JPEG blocks and runs of the other formats stay below.
 constexpr std::int64_t kMaxTexelsAByte = 16384;
 
 bool begins(std::span<const std::byte> bytes, const PictureSignature& signature) {
@@ -26,12 +26,12 @@ bool hasSignature(const PictureFormat& format) {
     return !format.signatures[0].bytes.empty();
 }
 
-/// An extension is without its dot here.
+/// `extension` has no dot.
 bool hasExtension(const PictureFormat& format, std::string_view extension) {
     return !extension.empty() && std::ranges::find(format.extensions, extension) != std::end(format.extensions);
 }
 
-/// "a, b or c": the formats that are decoded.
+/// The decoded formats as "a, b or c".
 std::string decodedNames() {
     std::string names;
     std::string_view last;
@@ -43,8 +43,8 @@ std::string decodedNames() {
     return names + " or " + std::string(last);
 }
 
-/// By the first bytes, regardless of the name; by the extension if no signature matches. Throws InputError for other
-/// formats.
+/// Detects the format by the first bytes, regardless of the name; by the extension if no signature matches. Throws
+/// InputError for other formats.
 const PictureFormat& formatOf(std::span<const std::byte> bytes, const std::string& name) {
     const auto refusal = [&](const std::string& what) {
         return InputError(fmt::format("{}: {}; convert the picture to {}", name, what, decodedNames()));
@@ -188,7 +188,7 @@ void placeInWindow(const Image& image, const DisplayWindow& window, bool hasAlph
             const std::span<Channel> texels = texelsOf<Channel>(placed);
             for (std::size_t alpha = 3; alpha < texels.size(); alpha += 4) texels[alpha] = kOneOf<Channel>;
         });
-    // The overlap of both, counted in texels of the displayed image.
+    // The overlap of both windows, in texels of the displayed image.
     const std::int64_t left = std::max<std::int64_t>(window.left, 0), top = std::max<std::int64_t>(window.top, 0);
     const std::int64_t right = std::min<std::int64_t>(window.left + image.width, window.width);
     const std::int64_t bottom = std::min<std::int64_t>(window.top + image.height, window.height);

@@ -11,16 +11,16 @@
 namespace tessera::scenes {
 namespace {
 
-/// What precedes the texels.
+/// The header of a Radiance image.
 struct HdrHeader {
-    glm::dvec3 exposure{1.0}; ///< what radiance was multiplied by
+    glm::dvec3 exposure{1.0}; ///< factor contained in the stored radiance
     bool isXyz = false;
-    int length = 0, scanlines = 0; ///< texels of a scanline, scanlines
+    int length = 0, scanlines = 0; ///< texels per scanline, number of scanlines
     int orientation = 1;           ///< Exif's
     std::size_t bytes = 0;
 };
 
-/// Up to the next end of line or space, which is taken too; empty at the end of `text`.
+/// Removes and returns the text up to the next character of `ends`, which is removed too; empty at the end of `text`.
 std::string_view takenUpTo(std::string_view& text, std::string_view ends) {
     const std::size_t end = text.find_first_of(ends);
     const std::string_view part = text.substr(0, end);
@@ -28,7 +28,7 @@ std::string_view takenUpTo(std::string_view& text, std::string_view ends) {
     return part;
 }
 
-/// A number after spaces. Texts are not terminated, so strtod() is of no use.
+/// Reads a number after spaces. Texts are not null-terminated, as strtod() requires.
 bool readHdrNumber(std::string_view& text, double& number) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
     const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -36,8 +36,8 @@ bool readHdrNumber(std::string_view& text, double& number) {
     return error == std::errc();
 }
 
-/// "-Y 8 +X 16": the axis across scanlines, which begin at its least (+) or greatest (-) coordinate, their number, and
-/// the same along them. Y points up.
+/// Parses "-Y 8 +X 16": the axis across scanlines, starting at its least (+) or greatest (-) coordinate, and their
+/// number; then the same along scanlines. Y points up.
 bool readResolution(std::string_view line, HdrHeader& header) {
     struct Axis {
         char sign, name;
@@ -65,7 +65,7 @@ bool readResolution(std::string_view line, HdrHeader& header) {
 }
 
 /// Source: Ward, "Radiance File Formats", "Picture Files": lines up to an empty one, then the resolution. Each EXPOSURE
-/// and COLORCORR multiplies; indented lines are those of the pictures that this one was made of.
+/// and COLORCORR multiplies; indented lines belong to source images and are ignored.
 HdrHeader readHdrHeader(const PictureSource& source) {
     constexpr std::string_view kExposure = "EXPOSURE=", kCorrection = "COLORCORR=", kFormat = "FORMAT=";
     const auto withoutReturn = [](std::string_view line) {
@@ -100,7 +100,7 @@ HdrHeader readHdrHeader(const PictureSource& source) {
     return header;
 }
 
-/// Linear colours of ITU-R BT.709 and D65. Source: IEC 61966-2-1, section 5.3.
+/// Converts XYZ to linear ITU-R BT.709 with D65. Source: IEC 61966-2-1, section 5.3.
 glm::dvec3 colourOfXyz(const glm::dvec3& xyz) {
     return {glm::dot(glm::dvec3(3.2406, -1.5372, -0.4986), xyz), glm::dot(glm::dvec3(-0.9689, 1.8758, 0.0415), xyz),
             glm::dot(glm::dvec3(0.0557, -0.2040, 1.0570), xyz)};
@@ -114,8 +114,8 @@ void undoHeader(const HdrHeader& header, Image& image) {
     }
 }
 
-/// The next word of a PFM's header, with the one space after it, which are taken; empty where the text ends, or goes on
-/// for longer than a number does.
+/// Removes and returns the next word of a PFM header, and removes the one space after it; empty if the text ends or the
+/// word is longer than a number.
 std::string_view takenWord(std::string_view& text) {
     constexpr std::string_view kSpaces = " \t\n\r";
     constexpr std::size_t kMostCharacters = 64;
@@ -134,7 +134,7 @@ bool readWord(std::string_view word, Number& number) {
 
 } // namespace
 
-/// OpenImageIO reads the texels behind a header of this program's own.
+/// Replaces the header by a plain one, then decodes the texels with OpenImageIO.
 DecodedPicture decodeHdr(const PictureSource& source) {
     const HdrHeader header = readHdrHeader(source);
     const std::string plain =
@@ -151,7 +151,7 @@ DecodedPicture decodeHdr(const PictureSource& source) {
 }
 
 /// Source: Debevec, "Portable FloatMap Image Format": PF or Pf (grey), width, height and scale; rows from the bottom.
-/// Texels are multiplied by the scale, whose sign tells the order of their bytes: below 0 is little-endian.
+/// Texels are multiplied by the magnitude of the scale; its sign is the byte order: negative is little-endian.
 DecodedPicture decodePfm(const PictureSource& source) {
     std::string_view text(reinterpret_cast<const char*>(source.bytes.data()), source.bytes.size());
     const std::size_t channels = takenWord(text) == "PF" ? 3 : 1;

@@ -10,7 +10,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// The error that ends decoding, else libjpeg's first warning; and the place to return to from the former.
+/// libjpeg's fatal error, else its first warning, and the jump target of a fatal error.
 struct JpegComplaint : jpeg_error_mgr {
     std::jmp_buf place;
     char text[JMSG_LENGTH_MAX] = {};
@@ -31,7 +31,7 @@ void onJpegMessage(j_common_ptr jpeg, int level) {
     if (level == kWarning) static_cast<JpegComplaint*>(jpeg->err)->note(jpeg);
 }
 
-/// Ends the bytes as libjpeg's own source does, but silently: where only the end is missing, every texel is there.
+/// Appends an end marker as libjpeg's default source does, but without a warning: all texels may still be present.
 boolean endFile(j_decompress_ptr jpeg) {
     static constexpr JOCTET kEnd[] = {0xff, JPEG_EOI};
     jpeg->src->next_input_byte = kEnd;
@@ -50,7 +50,7 @@ public:
     JpegReader(const JpegReader&) = delete;
     JpegReader& operator=(const JpegReader&) = delete;
 
-    // libjpeg leaves the two functions below by longjmp(), past no object that has a destructor.
+    // libjpeg leaves the two functions below by longjmp(), so they have no object with a destructor.
 
     bool readHeader() {
         if (setjmp(complaint_.place) != 0) return false;
@@ -63,7 +63,7 @@ public:
         return true;
     }
 
-    /// The number of rows read: fewer than all where libjpeg cannot go on. It draws grey what a file cut short lacks.
+    /// Returns the number of rows read, fewer if libjpeg fails. It fills missing parts of a truncated file with grey.
     std::size_t readRows(Image& image) {
         if (setjmp(complaint_.place) != 0) return jpeg_.output_scanline;
         jpeg_start_decompress(&jpeg_);
@@ -87,7 +87,7 @@ private:
     bool hasInks_ = false; ///< cyan, magenta, yellow and black
 };
 
-/// Writers store how little ink there is, as Adobe does.
+/// Converts CMYK to RGB. Files store inverted ink values, as Adobe does.
 void mixInks(Image& image) {
     for (std::size_t at = 0; at < image.texels.size(); at += 4) {
         const int black = std::to_integer<int>(image.texels[at + 3]);

@@ -10,7 +10,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// What OpenImageIO says, to stand within a message.
+/// OpenImageIO's message without final punctuation, to embed in another.
 std::string reasonOf(const std::string& text) {
     return oneLine(text.substr(0, text.find_last_not_of(" .\r\n") + 1));
 }
@@ -20,8 +20,8 @@ TexelFormat texelFormatOf(PictureHeader::Samples samples) {
     return samples == PictureHeader::Samples::Bits16 ? TexelFormat::Rgba16Unorm : TexelFormat::Rgba32Float;
 }
 
-/// Which channels of a file are red, green, blue and alpha, which may be missing: -1. Beside them stand depth and the
-/// like, which nothing uses.
+/// Indices of the red, green, blue and alpha channels of a file; alpha -1: none. Other channels, such as depth, are
+/// ignored.
 struct Channels {
     int red, green, blue, alpha;
 
@@ -41,7 +41,7 @@ Channels channelsOf(const PictureHeader& header) {
     return isGrey ? Channels{0, 0, 0, alpha} : Channels{0, 1, 2, alpha};
 }
 
-/// Grey is replicated, a missing alpha is 1.
+/// Reads RGBA texels: grey is replicated, a missing alpha is 1.
 template <typename Channel>
 bool readTexels(PictureInput& input, const Channels& channels, std::span<Channel> texels) {
     const auto stride = std::size_t(channels.count());
@@ -66,7 +66,7 @@ DecodedPicture decode(PictureInput& input, const PictureSource& source) {
                                      source.name, header.width, header.height, header.depth, header.channels,
                                      header.isDeep ? ", with several samples at different depths a texel" : ""));
     const TexelFormat texels = texelFormatOf(header.samples);
-    // The reader's own copy, where its header did not tell it, what it hands over, and the texels made of that.
+    // The reader's copy, unless claimedSize() has charged it, its output, and the texels made of that.
     const std::uint64_t copies = source.format.claimedSize != nullptr ? 1 : 2;
     DecodedPicture decoded = source.blank(header.width, header.height, texels,
                                           (copies * std::uint64_t(header.channels) + 4) * texelBytes(texels) / 4);
@@ -82,7 +82,7 @@ DecodedPicture decode(PictureInput& input, const PictureSource& source) {
         window.left != 0 || window.top != 0 || window.width != image.width || window.height != image.height;
     if (window.width > 0 && window.height > 0 && isPlaced) {
         PictureFormat format = source.format;
-        format.maxTexelsAByte = 0; // black around the texels takes no byte of the file
+        format.maxTexelsAByte = 0; // the black border takes no bytes of the file
         try {
             Image placed = PictureSource{source.bytes, source.name, format, source.ledger}
                                .blank(window.width, window.height, texels, texelBytes(texels))
@@ -123,7 +123,7 @@ DecodedPicture decodeByOiio(const PictureSource& source) {
         throw;
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const std::exception& error) { // some readers throw their own
+    } catch (const std::exception& error) { // some readers throw other types
         source.fail(reasonOf(error.what()), "cannot be decoded");
     }
 }

@@ -10,10 +10,10 @@
 namespace tessera::scenes {
 namespace {
 
-/// The bytes that libpng reads, and what it says is wrong with them.
+/// The bytes that libpng reads, and its error.
 struct PngBytes {
     std::span<const std::byte> bytes;
-    bool isBroken = false; ///< so everything that can be read is wanted
+    bool isBroken = false; ///< reads as much as possible
     std::size_t at = 0;
     std::string problem;
     std::size_t rows = 0; ///< read so far, in all passes of interlacing
@@ -21,7 +21,7 @@ struct PngBytes {
 
 void readBytes(png_structp png, png_bytep target, std::size_t count) {
     auto& source = *static_cast<PngBytes*>(png_get_io_ptr(png));
-    // libpng asks for kilobytes of compressed texels, and drops them where fewer are left.
+    // libpng requests kilobytes of compressed texels, and drops the rest if fewer are left.
     constexpr std::size_t kLastBytes = 65536;
     if (source.isBroken && source.bytes.size() - source.at < kLastBytes) png_set_compression_buffer_size(png, 1);
     if (count > source.bytes.size() - source.at) png_error(png, "the file ends early");
@@ -38,13 +38,13 @@ void onWarning(png_structp, png_const_charp) {}
 
 class PngReader {
 public:
-    /// `isBroken`: reads past wrong check sums, up to where nothing more can be read.
+    /// `isBroken`: ignores wrong checksums and reads as far as possible.
     PngReader(std::span<const std::byte> bytes, bool isBroken) : source_{bytes, isBroken, 0, {}, 0} {
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source_, onError, onWarning);
         if (png_ != nullptr) info_ = png_create_info_struct(png_);
         if (info_ == nullptr) throw std::bad_alloc();
         png_set_read_fn(png_, &source_, readBytes);
-        // Skips all chunks that decoding does not need but these two, so that no text of megabytes is kept.
+        // Skips all chunks that decoding does not need, except these two, so that megabytes of text are not kept.
         png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_AS_DEFAULT, reinterpret_cast<png_const_bytep>("gAMA\0sRGB"),
                                     2);
@@ -56,7 +56,7 @@ public:
     PngReader(const PngReader&) = delete;
     PngReader& operator=(const PngReader&) = delete;
 
-    // libpng leaves the two functions below by longjmp(), past no object that has a destructor.
+    // libpng leaves the two functions below by longjmp(), so they have no object with a destructor.
 
     bool readHeader() {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
@@ -72,7 +72,7 @@ public:
 
     bool readRows(std::span<png_bytep> rows) {
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
-        // Rows of early passes fill those that a file cut short lacks.
+        // Rows of early passes fill the missing rows of a truncated file.
         for (int pass = 0; pass < passes_; ++pass)
             for (png_bytep& row : rows) {
                 png_read_rows(png_, nullptr, &row, 1);
@@ -82,7 +82,7 @@ public:
         return true;
     }
 
-    /// True when the file says that its numbers are light itself. Source: PNG specification, 11.3.2.5 and 11.3.2.6.
+    /// Whether the file declares linear values. Source: PNG specification, 11.3.2.5 and 11.3.2.6.
     bool isLinear() const {
         constexpr double kClose = 0.005; // some writers round 1
         int intent = 0;

@@ -16,10 +16,10 @@
 namespace tessera::scenes {
 namespace {
 
-/// stb_image takes zeros, or whatever stands in memory, for texels that a file lacks: here that is noted.
+/// The input of stb_image. Detects a truncated file, whose missing texels stb_image fills with zeros or stale memory.
 struct Stream {
     std::span<const std::byte> bytes;
-    const char* ahead = nullptr; ///< where stb_image reads more than it needs yet; it begins with that
+    const char* ahead = nullptr; ///< stb_image's read-ahead buffer, which it fills first
     bool endsEarly = false;
 };
 
@@ -56,7 +56,7 @@ DecodedPicture decodeByStb(const PictureSource& source) {
     Stream header{source.bytes};
     require(stbi_info_from_callbacks(&kCallbacks, &header, &width, &height, &stored) != 0, header);
     height = int(std::min<std::int64_t>(std::abs(std::int64_t{height}), INT_MAX)); // top-down
-    // The picture as it is stored, with four channels, and as texels.
+    // The image as stored, with four channels, and as texels.
     constexpr std::uint64_t kCopies = 3;
     DecodedPicture decoded = source.blank(width, height, TexelFormat::Rgba8Unorm, kCopies * kChannels);
     Stream stream{source.bytes};

@@ -8,13 +8,13 @@
 namespace tessera::scenes {
 namespace {
 
-/// The first chunk of a name; empty where there is none.
+/// The first chunk with a name; empty if there is none.
 std::span<const std::byte> chunkOf(const WebPDemuxer& file, const char* name) {
     WebPChunkIterator chunk;
     if (WebPDemuxGetChunk(&file, name, 1, &chunk) == 0) return {};
     const auto bytes = std::as_bytes(std::span(chunk.chunk.bytes, chunk.chunk.size));
     WebPDemuxReleaseChunkIterator(&chunk);
-    return bytes; // of the file itself
+    return bytes; // points into the file
 }
 
 } // namespace
@@ -27,7 +27,7 @@ DecodedPicture decodeWebp(const PictureSource& source) {
     constexpr std::size_t kTexelBytes = 4;
     const auto width = int(WebPDemuxGetI(file.get(), WEBP_FF_CANVAS_WIDTH)),
                height = int(WebPDemuxGetI(file.get(), WEBP_FF_CANVAS_HEIGHT));
-    // libwebp holds as many texels again while it decodes.
+    // libwebp holds a second copy of the texels while decoding.
     DecodedPicture decoded = source.blank(width, height, TexelFormat::Rgba8Unorm, 2 * kTexelBytes);
     decoded.tags.orientation = orientationOfTiff(chunkOf(*file, "EXIF"));
     // The only frame, or the first of an animation, which may cover a part of the canvas.

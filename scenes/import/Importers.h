@@ -7,14 +7,14 @@
 #include "scenes/LoadLedger.h"
 #include "scenes/Scene.h"
 
-/// One importer a file format. Each returns the scene as the file says it (no default camera or light) and throws
-/// InputError naming the file and the place in it; features that are not supported but not required become warnings.
-/// The ledger is charged for the memory it takes.
+/// One importer per file format. Each returns the scene of the file without a default camera or light, and charges the
+/// ledger for its memory. Throws InputError naming the file and the position in it; unsupported features that are not
+/// required become warnings.
 namespace tessera::scenes {
 
 /// glTF 2.0, .gltf and .glb
 Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger);
-/// The image-based light of the scene that importGltf() reads, alone. Throws InputError where there is none.
+/// Only the image-based light of the scene that importGltf() reads. Throws InputError if there is none.
 Environment importGltfEnvironment(const std::filesystem::path& file, LoadLedger& ledger,
                                   std::vector<std::string>& warnings);
 /// Wavefront OBJ with MTL
@@ -22,11 +22,10 @@ Scene importObj(const std::filesystem::path& file, LoadLedger& ledger);
 /// Tessera's own .json, see docs/scene-format.md
 Scene importSceneJson(const std::filesystem::path& file, LoadLedger& ledger);
 
-/// A picture file's data besides its texels, for callers that show the picture itself; for a texture the scene says
-/// how it is meant.
+/// Metadata of an image file, for callers that show the image itself; the meaning of a texture is defined by the scene.
 struct PictureTags {
-    std::string software;      ///< that wrote it; empty where the format's decoder does not tell
-    bool isLinear = false;     ///< its numbers are light itself: floating point, or declared linear
+    std::string software;      ///< that wrote it; empty if the decoder does not report it
+    bool isLinear = false;     ///< values are linear: floating point, or declared linear
     int orientation = 1;       ///< TIFF's tag; 1 is upright
     bool isAssociated = false; ///< colours are multiplied by alpha
 };
@@ -35,13 +34,13 @@ struct DecodedPicture {
     PictureTags tags;
 };
 
-/// Decodes a picture file, or bytes of one (`name` then serves error messages), and turns it upright. Which format it
-/// is in follows from its first bytes, regardless of the name; TGA, which has no signature, is recognised by the
-/// extension .tga. No format is read but those of pictureFormats() (PictureCodecs.h). Flaws that are repaired become
-/// warnings of the ledger.
+/// Decodes an image file and turns it upright. The first bytes determine the format, regardless of the name; TGA, which
+/// has no signature, is recognised by the extension .tga. Reads only the formats of pictureFormats() (PictureCodecs.h).
+/// Repaired flaws become warnings of the ledger.
 DecodedPicture readPicture(const std::filesystem::path& file, LoadLedger& ledger);
-/// The same as textures: not turned by Exif's or TIFF's tag, and colours that are multiplied by alpha, as in OpenEXR
-/// files, are divided by it where it is above 0. Source: glTF 2.0, sections 3.8.2 and 3.9.4.
+/// Decodes a texture from a file or from bytes (`name` is for messages). Ignores the orientation tag of Exif or TIFF.
+/// Divides premultiplied colours, as in OpenEXR files, by alpha where it is above 0. Source: glTF 2.0, sections 3.8.2
+/// and 3.9.4.
 Image readImage(const std::filesystem::path& file, LoadLedger& ledger);
 Image decodeImage(std::span<const std::byte> bytes, const std::string& name, LoadLedger& ledger);
 

@@ -45,13 +45,13 @@ public:
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t lineStart = before.rfind('\n') + 1; // npos + 1 is 0
         std::string what = error.what();
-        // The library's own position and number of the error say nothing more.
+        // Removes the library's redundant position and error number.
         for (const std::string_view prefixEnd : {"] ", "column "})
             if (const std::size_t at = what.find(prefixEnd); at != std::string::npos)
                 what.erase(0, at + prefixEnd.size());
         if (const std::size_t colon = what.find(": "); colon != std::string::npos && colon < 8)
             what.erase(0, colon + 2);
-        // It quotes the whole of what it read last, which may be as long as the file.
+        // The message quotes the whole last token, which may be as long as the file.
         constexpr std::size_t kMostBytes = 400;
         if (what.size() > kMostBytes) what = std::string(beginningOf(what, kMostBytes)) + "...";
         throw InputError(fmt::format("{}:{}:{}: {}", file_.string(), line, last - lineStart + 1, what));
@@ -91,7 +91,7 @@ private:
     std::vector<Level> open_;
 };
 
-/// Calls `look` with every character that is not part of a string; of a string, with both quotes.
+/// Calls `look` with every character outside strings, and with both quotes of each string.
 template <typename Look>
 void eachOutsideStrings(std::string_view text, Look&& look) {
     bool inString = false;
@@ -126,7 +126,7 @@ void requireJsonDepth(std::string_view text, const std::filesystem::path& file) 
 MendedJson mendedJson(std::string_view text) {
     MendedJson mended;
     mended.text.reserve(text.size());
-    std::size_t comma = text.npos; // in the mended text, with blanks alone behind it
+    std::size_t comma = text.npos; // position in the mended text, followed only by blanks
     const auto replace = [&](std::size_t at, std::string_view flaw, std::string_view by) {
         if (mended.line == 0) {
             mended.line = 1 + int(std::count(text.begin(), text.begin() + std::ptrdiff_t(at), '\n'));
@@ -167,9 +167,9 @@ MendedJson mendedJson(std::string_view text) {
 }
 
 std::uint64_t parsedJsonBytes(std::string_view text) {
-    // One value stands after each of these, three times over while an array that doubles is copied; arrays, objects and
-    // strings lie on the heap, strings with their letters on it once more, and members of objects are nodes of a tree.
-    // The sizes are those of the heap's blocks.
+    // A value follows each of these characters, stored three times while a doubling array grows. Arrays, objects and
+    // strings are heap blocks, strings have a second one for their characters, and members of objects are tree nodes.
+    // The sizes are those of heap blocks.
     constexpr std::uint64_t kValueBytes = 3 * sizeof(json), kArrayBytes = 32, kObjectBytes = 64, kMemberBytes = 96;
     constexpr std::uint64_t kStringBytes = 48 + 24;
     std::uint64_t bytes = text.size() + kValueBytes;
@@ -314,7 +314,7 @@ std::vector<std::string> JsonObject::keys() const {
 
 JsonValue JsonObject::require(std::string_view key) {
     if (std::optional<JsonValue> found = find(key)) return *std::move(found);
-    // The key may be there under a misspelt name.
+    // The key may be present but misspelt.
     const std::vector<std::string> there = keys();
     std::vector<std::string_view> others;
     for (const std::string& other : there)

@@ -16,17 +16,16 @@
 
 namespace tessera::scenes {
 
-/// Parses a JSON document; the ledger is charged for it. Throws InputError: "file:line:column: what" for broken syntax,
-/// NaN and comments among it, and for numbers too large for a double; "file:/json/pointer: what" for a key that an
-/// object has twice; "file: what" for a document that nests too deep.
+/// Parses a JSON document and charges the ledger for it. Throws InputError: "file:line:column: what" for broken syntax,
+/// including NaN and comments, and for numbers too large for a double; "file:/json/pointer: what" for a duplicate key;
+/// "file: what" for a document that nests too deep.
 nlohmann::json parseJson(std::string_view text, const std::filesystem::path& file, LoadLedger& ledger);
 
-/// Far deeper than any document here nests; printing and converting JSON recurse, so depth must not be the file's to
-/// choose.
+/// Far deeper than any document here nests. Printing and converting JSON recurse, so files must not set the depth.
 inline constexpr int kMaxJsonDepth = 64;
 
-/// Throws InputError where brackets of a text nest deeper than kMaxJsonDepth. The library's own way to ask, a callback
-/// for each value, looks through all of an array for every element.
+/// Throws InputError if the brackets of a text nest deeper than kMaxJsonDepth. Avoids the library's parser callback,
+/// which searches the whole array for every element.
 void requireJsonDepth(std::string_view text, const std::filesystem::path& file);
 
 struct MendedJson {
@@ -34,8 +33,8 @@ struct MendedJson {
     int line = 0; ///< of the first flaw; 0: none was found
     std::string flaw;
 };
-/// Replaces what programs write although JSON does not have it: words and numbers that are none of its values, such as
-/// NaN, -inf and 1.#IND, by null; comments, and commas before a closing bracket, by blanks.
+/// Replaces text that programs write although it is not JSON: words and numbers that are not JSON values, such as NaN,
+/// -inf and 1.#IND, by null; comments, and commas before a closing bracket, by blanks.
 MendedJson mendedJson(std::string_view text);
 
 /// Upper bound of the memory of a parsed document of this text.
@@ -77,12 +76,12 @@ public:
                                     std::size_t most = std::numeric_limits<std::size_t>::max()) const;
     glm::vec2 vector2() const;
     glm::dvec3 vector3() const;
-    glm::dvec3 direction() const; ///< normalised; must have a length
+    glm::dvec3 direction() const; ///< normalised; the length must not be 0
     /// Three numbers within the limits.
     glm::vec3 color(double least = 0.0, double most = std::numeric_limits<float>::max()) const;
     JsonObject object() const;
 
-    /// The one of `choices` that the text names; `what` says what they are ("light", "wrap mode").
+    /// The choice named by the text; `what` is the kind of choice in messages ("light", "wrap mode").
     template <typename Choice>
     Choice oneOf(std::string_view what, std::span<const std::pair<std::string_view, Choice>> choices) const {
         const std::string name = text();
@@ -123,7 +122,7 @@ public:
     bool has(std::string_view key) const { return value_.value_->contains(key); }
     const JsonValue& value() const { return value_; }
 
-    /// Throws InputError for the first unknown key, with the nearest of those asked for; `what` names the kind of
+    /// Throws InputError for the first unknown key, with the nearest of the requested keys; `what` names the kind of
     /// object.
     void done(std::string_view what) const;
 

@@ -35,9 +35,9 @@ struct Keyword {
     std::variant<ColourValue, NumberValue, PictureValue, WithoutEffect> value;
 };
 
-/// After the MTL specification (Wavefront, "Advanced Visualizer Manual", appendix B2) and its PBR extension
-/// (Exocortex 2015, "Extending Wavefront MTL for physically-based rendering"). Ambient light and what only bends
-/// rays have no counterpart in direct lighting.
+/// After the MTL specification (Wavefront, "Advanced Visualizer Manual", appendix B2) and its PBR extension (Exocortex
+/// 2015, "Extending Wavefront MTL for physically-based rendering"). Ambient light, transmission filters and reflection
+/// sharpness have no counterpart in direct lighting.
 constexpr Keyword kKeywords[] = {
     {"Kd", ColourValue{&MtlMaterial::diffuse}},
     {"Ks", ColourValue{&MtlMaterial::specular, 1.0}},
@@ -65,7 +65,7 @@ constexpr Keyword kKeywords[] = {
     {"sharpness", WithoutEffect()},
 };
 
-/// Those that takeOptions() takes over, and others that are left out.
+/// Texture options that takeOptions() applies, and others that are left out.
 struct TextureOption {
     std::string_view name;
     std::size_t mostNumbers; ///< 0: one word that is no number
@@ -77,7 +77,7 @@ constexpr TextureOption kTextureOptions[] = {
 
 constexpr std::string_view kStatementLeftOut = "the statement is left out";
 
-/// Reads one MTL file, in its order.
+/// Reads one MTL file in order.
 class MtlReader {
 public:
     MtlReader(const std::filesystem::path& file, Repairs& repairs, LoadLedger& ledger)
@@ -111,7 +111,7 @@ private:
     }
 
     void beginMaterial(const Line& line) {
-        // In the file's list, and after that among those of all files, by one or two names.
+        // In the file's list, then in the list of all files, indexed by one or two names.
         constexpr std::size_t kBytes = kGrown * sizeof(MtlMaterial) + 2 * kNodeBytes<std::string>;
         charge(kBytes + keptTextBytes(file_) + 2 * keptTextBytes(line.rest), line);
         materials_.emplace_back();
@@ -132,7 +132,7 @@ private:
 
     void readNumbers(const Line& line, const Keyword& keyword) {
         std::vector<std::string_view> words = line.words;
-        if (!words.empty() && words.front() == "-halo") words.erase(words.begin()); // opacity fades at the silhouette
+        if (!words.empty() && words.front() == "-halo") words.erase(words.begin()); // fades opacity at the silhouette
         const auto* number = std::get_if<NumberValue>(&keyword.value);
         const auto* colour = std::get_if<ColourValue>(&keyword.value);
         if (colour != nullptr && words.size() == 1) words.resize(3, words.front()); // green and blue default to red
@@ -142,7 +142,7 @@ private:
         if (value && colour) materials_.back().*(colour->member) = *value;
     }
 
-    /// The numbers within 0 and `most`; none, which is a flaw, where a word is no number or one is missing.
+    /// The numbers, clamped to 0..`most`; none, with a recorded flaw, if a word is missing or not a number.
     std::optional<glm::vec3> readValues(const Line& line, const char* keyword, std::span<const std::string_view> words,
                                         std::size_t count, double most) {
         const bool isModel = keyword == std::string_view("illum");
@@ -168,11 +168,11 @@ private:
         return std::nullopt;
     }
 
-    /// keyword -option values ... file name -option values ...; options may stand on both sides of the name. Options of
-    /// an earlier statement of the material that this one does not give stay.
+    /// Reads `keyword -option values ... file name -option values ...`: options may stand on both sides of the name.
+    /// Options that are not given keep the values of an earlier statement of the material.
     void readPicture(const Line& line, const char* keyword, std::optional<MtlPicture>& stated) {
         MtlPicture picture = stated.value_or(MtlPicture{});
-        // A name may begin as an option does.
+        // A name may begin like an option.
         const std::size_t first = isFile(line.rest) ? 0 : takeOptions(line, 0, picture);
         if (first >= line.words.size())
             return addFlaw(line, fmt::format("'{}' names no picture", keyword), kStatementLeftOut);
@@ -203,7 +203,7 @@ private:
         return !name.empty() && std::filesystem::is_regular_file(folder_ / name, failure);
     }
 
-    /// Takes the options that begin at a word, and returns the word behind them.
+    /// Reads the options that begin at a word, and returns the word after them.
     std::size_t takeOptions(const Line& line, std::size_t word, MtlPicture& picture) {
         while (word < line.words.size() && line.words[word].starts_with('-')) {
             const std::string_view name = line.words[word++];
@@ -246,7 +246,7 @@ private:
     std::vector<MtlMaterial> materials_;
 };
 
-/// The files that the text behind mtllib names: one name that may hold spaces and '#', or several without.
+/// The files named after mtllib: one name that may contain spaces and '#', or several without.
 std::vector<NamedFile> librariesOf(const std::string& statement, const std::filesystem::path& folder) {
     const std::string name(withoutComment(statement));
     for (const std::string& whole : {statement, name})
@@ -255,12 +255,12 @@ std::vector<NamedFile> librariesOf(const std::string& statement, const std::file
     addWords(name, words);
     std::vector<NamedFile> files;
     for (const std::string_view word : words) files.push_back(fileNamed(folder, std::string(word)));
-    // If there is no file of that name, a message should show the whole statement.
+    // If no such file exists, messages should show the whole statement.
     if (std::ranges::any_of(files, &NamedFile::isFound)) return files;
     return {{folder / name, false}};
 }
 
-/// The materials of all libraries, by name; a name that ends in a comment counts without it too.
+/// The materials of all libraries, by name; a name that ends in a comment is also found without it.
 class Definitions {
 public:
     Definitions(const std::filesystem::path& objFile, Repairs& repairs, LoadLedger& ledger)
@@ -294,7 +294,7 @@ public:
         }
     }
 
-    /// The material that a text behind usemtl names, called as it does there.
+    /// The material named by a text after usemtl, with the name used there.
     std::optional<MtlMaterial> named(const std::string& text) const {
         for (const std::string& name : {text, std::string(withoutComment(text))})
             if (const auto found = byName_.find(name); found != byName_.end()) {
@@ -332,7 +332,7 @@ private:
 
 std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, const std::vector<std::string>& libraries,
                                        const std::filesystem::path& objFile, Repairs& repairs, LoadLedger& ledger) {
-    Repairs unused(false); // where nothing is drawn with a material
+    Repairs unused(false); // discards notes if no drawn element has a material
     Definitions definitions(objFile, names.empty() ? unused : repairs, ledger);
     for (const std::string& statement : libraries) definitions.read(statement);
     std::vector<MtlMaterial> found;

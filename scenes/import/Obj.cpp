@@ -41,19 +41,18 @@ glm::vec3 unitOr(const glm::dvec3& vector, const glm::vec3& otherwise) {
     return length > 0.0 && std::isfinite(length) ? glm::vec3(vector / length) : otherwise;
 }
 
-/// A normal for every corner of every triangle. Where the file gives none, it is the triangle's own outside smoothing
-/// groups, and inside one the mean over the group's triangles at that position, weighted by their angles there, so that
-/// it does not depend on how polygons were cut. Source: Thuermer & Wuethrich 1998, "Computing Vertex Normals from
-/// Polygonal Facets".
+/// A normal for every corner of every triangle. A missing normal is the triangle's outside smoothing groups; in one, it
+/// is the mean over the group's triangles at that position, weighted by their corner angles, which is independent of
+/// how polygons were triangulated. Source: Thuermer & Wuethrich 1998, "Computing Vertex Normals from Polygonal Facets".
 class CornerNormals {
 public:
     explicit CornerNormals(const ObjFile& obj) : obj_(obj) {
         normals_.reserve(obj.normalsOS.size());
         for (const glm::vec3& normalOS : obj.normalsOS) normals_.push_back(unitOr(normalOS, kUp));
-        std::vector<glm::dvec3> sums; // of the normals that follow those of the file
+        std::vector<glm::dvec3> sums; // of the normals that are stored after the file's
         for (const Group& group : obj.groups)
             for (const Triangle& triangle : group.triangles) {
-                // A triangle with all its normals needs none made, and its neighbours in a file have them too.
+                // A triangle with all normals needs none computed, and its neighbours in a file have them too.
                 const auto lacksNormal = [](const Corner& corner) { return corner.normal == kNone; };
                 if (triangle.smoothingGroup == 0 || std::ranges::none_of(triangle.corners, lacksNormal)) continue;
                 const std::array<glm::dvec3, 3> normals = weightedNormals(triangle);
@@ -68,7 +67,7 @@ public:
         for (const glm::dvec3& sum : sums) normals_.push_back(unitOr(sum, kUp));
     }
 
-    /// The number of a corner's normal: equal numbers are equal normals.
+    /// The index of a corner's normal: equal indices are equal normals.
     std::size_t indexAt(const Triangle& triangle, std::size_t corner) {
         const Corner& index = triangle.corners[corner];
         if (index.normal != kNone) return std::size_t(index.normal);
@@ -81,7 +80,7 @@ public:
         return normals_.size() - 1;
     }
 
-    /// Unit length; +Y where a triangle has no area.
+    /// A unit normal; +Y if a triangle has no area.
     const glm::vec3& operator[](std::size_t index) const { return normals_[index]; }
 
 private:
@@ -106,10 +105,10 @@ private:
     const ObjFile& obj_;
     std::vector<glm::vec3> normals_;                        ///< those of the file first
     std::unordered_map<std::uint64_t, std::size_t> smooth_; ///< by position and smoothing group
-    const Triangle* flatTriangle_ = nullptr;                ///< that the last normal was made for
+    const Triangle* flatTriangle_ = nullptr;                ///< triangle of the last flat normal
 };
 
-/// One mesh as it grows: equal corners share a vertex.
+/// Builds one mesh; equal corners share a vertex.
 class MeshBuilder {
 public:
     MeshBuilder(const ObjFile& obj, CornerNormals& normals) : obj_(obj), normals_(normals) {}
@@ -147,7 +146,7 @@ private:
         mesh_.positionsOS.emplace_back(obj_.positions[position] - obj_.origin);
         mesh_.normalsOS.push_back(normalOS);
         if (!obj_.colors.empty()) mesh_.colors.emplace_back(obj_.colors[position], 1.0f);
-        glm::vec2 uv(0.0f); // of a corner without, beside others that have them
+        glm::vec2 uv(0.0f); // of a corner without, if others have them
         if (corner.texCoord != kNone) uv = obj_.texCoords[std::size_t(corner.texCoord)];
         (corner.texCoord != kNone ? hasTexCoords_ : lacksTexCoords_) = true;
         mesh_.texCoords[0].emplace_back(uv.x, 1.0f - uv.y); // the file's origin is the bottom-left corner
@@ -182,7 +181,7 @@ public:
     }
 
 private:
-    /// One node, with a mesh for each kind of element and material.
+    /// Adds one node, with a mesh for each kind of element and material.
     void addGroup(const Group& group) {
         using Part = std::pair<int, int>;                   // mode and material
         std::vector<std::pair<Part, MeshBuilder>> builders; // in the order the materials are first used
@@ -215,7 +214,7 @@ private:
         scene_.nodes.push_back(std::move(node));
     }
 
-    /// Materials are converted, and their pictures read, when the first element uses them.
+    /// Materials are converted, and their images read, when the first element uses them.
     int materialOf(int number, bool isUnlit) {
         const MtlMaterial* mtl = number == kNone ? nullptr : &mtl_[std::size_t(number)];
         const auto [entry, isNew] = materialOfName_.try_emplace({mtl ? mtl->name : "", mtl != nullptr, isUnlit}, kNone);
@@ -231,7 +230,7 @@ private:
     CornerNormals normals_;
     MaterialConverter materials_;
     std::vector<MtlMaterial> mtl_; ///< in the order of ObjFile::materials
-    /// Scene materials by name, whether there is one, and whether they are unlit.
+    /// Scene materials by name, whether an MTL material exists, and whether they are unlit.
     std::map<std::tuple<std::string, bool, bool>, int> materialOfName_;
     std::map<int, int> thinModes_; ///< the glTF modes of meshes that draw points or lines
     bool lacksSomeTexCoords_ = false;

@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Takes the line at `at` from `text`, trimmed; ends are LF, CR LF or CR.
+/// Returns the line at `at`, trimmed, and advances `at` past it; line ends are LF, CR LF or CR.
 std::string_view takeLine(std::string_view text, std::size_t& at) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
     const std::string_view line = text.substr(at, end - at);
@@ -33,7 +33,7 @@ bool isContinued(std::string_view line) {
     return line.ends_with('\\') && withoutComment(line).size() == line.size();
 }
 
-/// Without the comment behind numbers, which needs no blank. "1.#IND" is how some compilers write NaN.
+/// Removes a comment after numbers, which needs no blank before it. Some compilers write NaN as "1.#IND".
 std::string_view withoutCommentOfNumbers(std::string_view text) {
     for (std::size_t at = text.find('#'); at != std::string_view::npos; at = text.find('#', at + 1))
         if (at == 0 || text[at - 1] != '.') return text.substr(0, at);
@@ -47,7 +47,7 @@ std::optional<Value> parseWhole(std::string_view word) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end != word.data() + word.size()) return std::nullopt;
     if constexpr (std::numeric_limits<Value>::has_infinity) {
-        // Too small for a double is 0; too large has a positive exponent.
+        // Underflow becomes 0; overflow has a positive exponent.
         const std::size_t exponent = word.find_first_of("eE");
         const bool isTiny = exponent != std::string_view::npos && word.substr(exponent + 1, 1) == "-";
         if (error == std::errc::result_out_of_range) return isTiny ? Value{} : std::numeric_limits<Value>::infinity();
@@ -62,7 +62,7 @@ void appendUtf8(std::string& text, std::uint32_t c) {
     for (std::uint32_t i = size - 1; i-- > 0;) text.push_back(char(0x80 | (c >> 6 * i & 0x3f)));
 }
 
-/// Half of a pair without its other half becomes U+FFFD.
+/// Converts UTF-16 to UTF-8; an unpaired surrogate becomes U+FFFD.
 std::string utf8OfUtf16(std::string_view bytes, bool isBigEndian) {
     const auto unitAt = [&](std::size_t at) -> std::uint32_t {
         const auto first = static_cast<unsigned char>(bytes[at]), second = static_cast<unsigned char>(bytes[at + 1]);
@@ -82,7 +82,7 @@ std::string utf8OfUtf16(std::string_view bytes, bool isBigEndian) {
 }
 
 const glm::vec3 kMissing(std::numeric_limits<float>::quiet_NaN());
-/// Colours of 0..1 are rounded above 1, but never this far.
+/// Rounding can lift colours of 0..1 above 1, but never this far.
 constexpr float kLeastByte = 2.0f;
 constexpr float kMostByte = 255.0f;
 
@@ -154,7 +154,7 @@ std::optional<double> finiteNumber(std::string_view keyword, std::string_view wo
 
 std::string readText(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
-    ledger.charge(bytes.size(), [&] { return file.string(); }); // once more as text
+    ledger.charge(bytes.size(), [&] { return file.string(); }); // a second copy as text
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const bool hasMark = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
     const auto isZero = [&](std::size_t i) { return text[i] == '\0'; };

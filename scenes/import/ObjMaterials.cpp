@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kConstantColour = 0.0f; ///< illum 0
 constexpr float kDiffuseOnly = 1.0f;    ///< illum 1
-constexpr int kMatte = -1;              ///< the channel of opacity: alpha, or red of pictures without it
+constexpr int kMatte = -1;              ///< the channel of opacity: alpha, or red of images without alpha
 
 /// The perceptual roughness whose GGX lobe is about as wide as a Blinn-Phong lobe of this exponent.
 /// Source: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", section 5.4: the Phong
@@ -30,7 +30,7 @@ TextureTransform transformOf(const MtlPicture& picture) {
     return transform;
 }
 
-/// Points and lines have no normals to be lit by.
+/// The unlit version of a material, for points and lines, which have no normals.
 Material unlitOf(const Material& lit) {
     Material unlit;
     unlit.name = lit.name + ", unlit";
@@ -204,14 +204,14 @@ void MaterialConverter::setMetallicRoughness(const MtlMaterial& mtl, Material& m
     if (roughness.image != kNone && metalness.image != kNone &&
         (roughness.transform != metalness.transform || roughness.sampler != metalness.sampler))
         warn(mtl, "map_Pm is placed as map_Pr is; its own options are left out");
-    // One picture for both is packed as in glTF, green and blue; two are packed here.
+    // One image for both is already packed as in glTF, green and blue; two are packed here.
     if (roughness.image != metalness.image)
         use.image = packed(mtl, mtl.name + " roughness and metalness",
                            {{{kNone, 0}, {roughness.image, 0}, {metalness.image, 0}, {kNone, 0}}});
     material.texture(TextureSlot::MetallicRoughness) = use;
 }
 
-/// As wide and as high as the largest source, in at most the widest format.
+/// Packs channels of images. Charges for the largest width and height, and for the widest format.
 int MaterialConverter::packed(const MtlMaterial& mtl, const std::string& name, const Channels& channels) {
     const auto [entry, isNew] = packed_.try_emplace(channels, kNone);
     if (!isNew) return entry->second;
@@ -233,7 +233,7 @@ int MaterialConverter::packed(const MtlMaterial& mtl, const std::string& name, c
     return entry->second = int(scene_.images.size()) - 1;
 }
 
-/// Files mean other things by these, and nothing else says why nothing is seen.
+/// Warns of values that hide a material or a texture. Files often mean something else by them.
 void MaterialConverter::warnOfNothingShown(const MtlMaterial& mtl) {
     constexpr float kRounding = 1e-3f;
     if (mtl.opacity && mtl.transparency && std::abs(*mtl.opacity + *mtl.transparency - 1.0f) > kRounding)

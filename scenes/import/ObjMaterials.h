@@ -5,7 +5,7 @@
 
 namespace tessera::scenes::obj {
 
-/// A picture that a statement names, and the statement's options.
+/// An image that a statement names, and the statement's options.
 struct MtlPicture {
     const char* keyword = ""; ///< of the statement, in MTL's spelling
     int line = 0;
@@ -16,14 +16,14 @@ struct MtlPicture {
     float bumpMultiplier = 1.0f; ///< -bm
 };
 
-/// A flaw of a material's statements, noted where the material is drawn.
+/// A flaw of a material's statements, reported if the material is drawn.
 struct MtlFlaw {
     int line;
     std::string text;
     std::string_view repair;
 };
 
-/// A material of an MTL file, or one that no file defines: then nothing is stated. Unset values are not 0.
+/// A material of an MTL file. If no file defines it, all values are unset, which is not the same as 0.
 struct MtlMaterial {
     std::string name;
     std::string file; ///< the library that defines it; empty: none does
@@ -40,7 +40,7 @@ struct MtlMaterial {
     std::optional<float> transparency;          ///< Tr, which d overrides
     std::optional<float> perceptualRoughness;   ///< Pr
     std::optional<float> metalness;             ///< Pm
-    std::optional<float> illumination;          ///< illum, the number of a model
+    std::optional<float> illumination;          ///< illum, the number of an illumination model
     std::optional<MtlPicture> diffusePicture;   ///< map_Kd
     std::optional<MtlPicture> specularPicture;  ///< map_Ks
     std::optional<MtlPicture> emissionPicture;  ///< map_Ke
@@ -51,33 +51,33 @@ struct MtlMaterial {
     std::optional<MtlPicture> bumpPicture;      ///< map_bump or bump
 };
 
-/// The materials of the texts behind usemtl, `names`, in their order, looked up in the libraries that the texts behind
-/// mtllib name beside `objFile`; the first definition counts. A missing library or material is noted; the material then
-/// states nothing. Names may end in comments, unless a name with '#' is defined.
+/// Looks up the materials `names` (the texts after usemtl), in order, in `libraries` (the texts after mtllib) relative
+/// to `objFile`; the first definition counts. A missing library or material is noted; all values of the material are
+/// then unset. Names may end in comments, unless a name with '#' is defined.
 std::vector<MtlMaterial> findMaterials(const std::vector<std::string>& names, const std::vector<std::string>& libraries,
                                        const std::filesystem::path& objFile, Repairs& repairs, LoadLedger& ledger);
 
-/// Adds materials of MTL files to a scene, with the pictures they name; a picture used twice is decoded once.
-/// Every material becomes metallic_roughness, so that those of one file keep their relative brightness (`lambert` has
-/// no 1/pi), except for illum 0, MTL's constant colour, which becomes single_color. docs/scene-format.md has the table.
+/// Adds materials of MTL files to a scene, with the images they name; an image used twice is decoded once. Every
+/// material becomes metallic_roughness, so that those of one file keep their relative brightness (`lambert` has no
+/// 1/pi), except for illum 0, MTL's constant colour, which becomes single_color. docs/scene-format.md has the table.
 class MaterialConverter {
 public:
     MaterialConverter(Scene& scene, Repairs& repairs, LoadLedger& ledger)
         : scene_(scene), repairs_(repairs), ledger_(ledger) {}
 
-    /// The index of the new material; null or undefined: grey, half rough, not metallic. Unlit, for points and lines:
-    /// base colour plus emission. Notes the material's flaws. For a picture that cannot be read a stand-in is drawn,
-    /// with a warning naming MTL file, material and picture; a strict load throws InputError with the same text.
+    /// Adds a material and returns its index. Null or undefined: grey, roughness 0.5, not metallic. Unlit, for points
+    /// and lines: base colour plus emission. Notes the material's flaws. An unreadable image becomes a stand-in, with a
+    /// warning naming MTL file, material and image; a strict load throws InputError with the same text.
     int add(const MtlMaterial* mtl, bool isUnlit);
 
-    /// Warns of the statements of all materials that are not supported.
+    /// Warns of unsupported statements of all materials.
     void finish();
 
 private:
     Material converted(const MtlMaterial& mtl);
-    /// Of no image where the picture cannot be read and nothing can stand in for it.
+    /// Has no image if the file cannot be read and the slot has no stand-in.
     TextureUse textureUse(const MtlMaterial& mtl, const MtlPicture& picture, TextureSlot slot);
-    /// The same without regard to what a stand-in can be.
+    /// The same without stand-ins.
     TextureUse pictureUse(const MtlMaterial& mtl, const MtlPicture& picture);
     int standIn(const MtlMaterial& mtl);
     int image(const MtlMaterial& mtl, const MtlPicture& picture);
@@ -95,7 +95,7 @@ private:
     std::map<std::string, std::set<std::string>> unsupported_; ///< statements and options by library
     std::map<std::string, int> imageOfFile_; ///< by folder and name, and by path; kNone: it cannot be read
     int standIn_ = kNone;
-    std::map<Channels, int> packed_; ///< images made of others
+    std::map<Channels, int> packed_; ///< packed images
 };
 
 } // namespace tessera::scenes::obj

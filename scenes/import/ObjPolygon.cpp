@@ -8,7 +8,7 @@
 namespace tessera::scenes::obj {
 namespace {
 
-/// The polygon seen from its front, in the coordinate plane it is most parallel to. The normal is Newell's, twice the
+/// Projects a polygon, seen from its front, to the most parallel coordinate plane. The normal is Newell's, twice the
 /// sum of signed areas: Sutherland, Sproull & Schumacker 1974, "A Characterization of Ten Hidden-Surface Algorithms".
 std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners) {
     glm::dvec3 normal(0.0);
@@ -63,10 +63,10 @@ public:
 private:
     static constexpr std::size_t kNoCorner = ~std::size_t{0};
     struct Links {
-        std::size_t before, after;       ///< among the corners that are left
+        std::size_t before, after;       ///< among the remaining corners
         std::size_t inCell = kNoCorner;  ///< the next of the same cell
         std::size_t version = 0;         ///< raised when a neighbour or the corner itself is clipped
-        std::size_t waiting = kNoCorner; ///< the last in waits_ that this corner keeps from being an ear
+        std::size_t waiting = kNoCorner; ///< list in waits_ of the corners that this one keeps from being ears
     };
     struct Wait {
         std::size_t at, version, next;
@@ -95,7 +95,7 @@ private:
         links_[links.after].before = links.before;
         ++links.version;
         if (at == first_) first_ = links.after;
-        if (steps_ > mostSteps_) return; // no ear is looked for any more
+        if (steps_ > mostSteps_) return; // ears are no longer searched
         std::size_t* inCell = &cells_[cellOf(flat_[at])];
         for (; *inCell != at; ++steps_) inCell = &links_[*inCell].inCell;
         *inCell = links.inCell;
@@ -132,7 +132,7 @@ private:
         return std::nullopt;
     }
 
-    /// A corner in the triangle or on its edge.
+    /// A corner in the triangle or on its edge, else kNoCorner.
     std::size_t cornerWithin(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
         const glm::dvec2 least = (glm::min(a, glm::min(b, c)) - least_) * cellsPerLength_;
         const glm::dvec2 most = (glm::max(a, glm::max(b, c)) - least_) * cellsPerLength_;
@@ -140,7 +140,7 @@ private:
             for (std::size_t x = columnOf(least.x); x <= columnOf(most.x); ++x, ++steps_)
                 for (std::size_t at = cells_[y * side_ + x]; at != kNoCorner; at = links_[at].inCell, ++steps_) {
                     const glm::dvec2& p = flat_[at];
-                    // A corner itself, or one where a hole's bridge returns.
+                    // A corner of the triangle, or its duplicate at the bridge of a hole.
                     if (p == a || p == b || p == c) continue;
                     if (areaOf(a, b, p) >= 0.0 && areaOf(b, c, p) >= 0.0 && areaOf(c, a, p) >= 0.0) return at;
                 }
@@ -153,10 +153,10 @@ private:
     std::vector<std::size_t> cells_; ///< the first corner of each cell of a grid over the polygon
     std::size_t side_ = 1;           ///< in cells
     glm::dvec2 least_{0.0}, cellsPerLength_{1.0};
-    std::priority_queue<Offer, std::vector<Offer>, std::greater<>> offers_; ///< those of old versions do not count
+    std::priority_queue<Offer, std::vector<Offer>, std::greater<>> offers_; ///< old versions are ignored
     std::vector<Wait> waits_;
-    std::size_t freeWait_ = kNoCorner; ///< the first of those in use no more
-    std::size_t first_ = 0;            ///< of the corners that are left
+    std::size_t freeWait_ = kNoCorner; ///< the first free entry of waits_
+    std::size_t first_ = 0;            ///< the first of the remaining corners
     std::uint64_t& steps_;
     std::uint64_t mostSteps_;
     std::vector<std::array<std::size_t, 3>> triangles_;

@@ -22,9 +22,9 @@ constexpr std::array<std::string_view, 8> kWithoutEffect = {"lod", "bevel",     
 enum Attribute : std::size_t { kPosition, kTexCoord, kNormal, kAttributeCount };
 struct AttributeInfo {
     std::string_view keyword, name;
-    std::size_t numbers; ///< that are read
+    std::size_t numbers; ///< number of values read
     std::size_t needed;
-    std::string_view repair; ///< of an element that uses one which cannot be used
+    std::string_view repair; ///< of an element that uses an invalid one
 };
 constexpr std::array<AttributeInfo, kAttributeCount> kAttributes{
     {{"v", "position", 3, 3, "elements that use it are left out"},
@@ -33,9 +33,9 @@ constexpr std::array<AttributeInfo, kAttributeCount> kAttributes{
 constexpr std::string_view kLeftOut = "the element is left out";
 constexpr std::string_view kWithoutIt = "the corner is drawn without it";
 
-// Bytes that are charged for what the text makes, up to the scene.
-/// Any corner may get a vertex of its own (position, normal, texture coordinate, colour, index), found by three
-/// indices, and a smooth normal, found by position and group. One of the vertices' vectors grows at a time.
+// Bytes charged for the results of the text, up to the scene.
+/// Any corner may get a separate vertex (position, normal, texture coordinate, colour, index), looked up by three
+/// indices, and a smooth normal, looked up by position and group. Only one of the vertices' vectors grows at a time.
 constexpr std::size_t kVertexBytes =
     2 * sizeof(glm::vec3) + sizeof(glm::vec2) + sizeof(glm::vec4) + sizeof(std::uint32_t);
 constexpr std::size_t kCornerBytes = kRoom * kVertexBytes + sizeof(glm::vec4) + kNodeBytes<std::array<std::size_t, 3>> +
@@ -44,17 +44,17 @@ constexpr std::size_t kTriangleBytes = kGrown * sizeof(Triangle) + 3 * kCornerBy
 /// A point or a segment becomes a solid.
 constexpr std::size_t kThinBytes =
     kGrown * 2 * sizeof(Corner) + gltf::kCornersOfSolid * (kRoom * kVertexBytes + sizeof(glm::vec4));
-/// A position may have a colour; a normal is brought to unit length in a list of its own.
+/// A position may have a colour; normals are normalised in a separate list.
 constexpr std::size_t kAttributeBytes = kGrown * (sizeof(glm::dvec3) + sizeof(glm::vec3));
-/// A name that usemtl gives becomes a material of the libraries, or a warning, and one or two of the scene.
+/// A name after usemtl becomes a material of the libraries, or a warning, and one or two materials of the scene.
 constexpr std::size_t kMaterialBytes = kGrown * (sizeof(MtlMaterial) + 2 * sizeof(Material) + 4 * sizeof(std::string));
-/// A material of a group becomes a mesh, the group a node. Where a group has many, their builders are in the place of
-/// groups and nodes.
+/// A material of a group becomes a mesh, the group a node. The memory counted for group and node covers the mesh
+/// builders of further materials.
 constexpr std::size_t kMeshBytes = kGrown * (sizeof(Group) + sizeof(Mesh) + sizeof(Node) + sizeof(MeshInstance));
 
-/// Corners that are looked at to cut all polygons of a file: a second or so.
+/// Limit of corners visited to triangulate all polygons of a file: a second or so.
 constexpr std::uint64_t kMostSteps = 500'000'000;
-/// Beside them, each corner of the file is granted so many: quads take fewer.
+/// Additional steps per corner of the file: quads take fewer.
 constexpr std::uint64_t kStepsACorner = 64;
 
 class ObjReader {
@@ -64,7 +64,7 @@ public:
 
     ObjFile read() {
         const std::string text = readText(file_, ledger_);
-        // A face may stand before its vertices.
+        // A face may precede its vertices.
         forEachLine(text, [&](const Line& line) { readAttribute(line); });
         isUsed_.resize(obj_.positions.size());
         forEachLine(text, [&](const Line& line) { readElement(line); });
@@ -136,7 +136,7 @@ private:
         } else if (keyword == "l" || keyword == "p") {
             readThin(line, keyword == "l" ? kLines : kPoints);
         } else if (keyword == "g") {
-            std::vector<std::string_view> names; // several are one
+            std::vector<std::string_view> names; // several form one name
             addWords(withoutComment(line.rest), names);
             beginGroup(fmt::to_string(fmt::join(names, " ")));
         } else if (keyword == "o") {
@@ -158,7 +158,7 @@ private:
         groupMeshes_.clear();
     }
 
-    /// Called for elements that are drawn: a material without one is not looked for.
+    /// Called for drawn elements: a material without one is not looked up.
     void useMaterial(const Line& line) {
         if (!nextMaterial_) return;
         const auto [entry, isNew] = materialOfName_.try_emplace(*nextMaterial_, int(obj_.materials.size()));
@@ -170,10 +170,10 @@ private:
         nextMaterial_.reset();
     }
 
-    /// The group that an element of a glTF mode is added to; charged for the meshes that its elements become.
+    /// The group that an element of a glTF mode is added to. Charges the ledger for the meshes of its elements.
     Group& group(int mode) {
         if (const bool isFirst = groupMeshes_.empty(); groupMeshes_.insert({mode, material_}).second) {
-            // Group, node and mesh have the group's name, and one of several meshes that of the material too.
+            // Group, node and mesh have the group's name; several meshes also have the names of their materials.
             const std::size_t materialBytes = material_ == kNone ? 0 : obj_.materials[index(material_)].size();
             ledger_.charge(kMeshBytes + kGrown * groupName_.size() + materialBytes,
                            [&] { return fmt::format("{}: group '{}'", file_, groupName_); });
@@ -211,7 +211,7 @@ private:
         }
     }
 
-    /// A file of vertices alone is a cloud of points.
+    /// Draws a file that has only vertices as a point cloud.
     void addVertices() {
         for (std::size_t i = 0; i < obj_.positions.size(); ++i) {
             if (flaws_[kPosition].contains(i)) continue;
@@ -230,7 +230,7 @@ private:
         ledger_.charge(bytes, [&] { return fmt::format("{}:{}", file_, line.number); });
     }
 
-    /// Fills corners_. False where the element cannot be drawn, which is noted.
+    /// Fills corners_. Returns false, and notes it, if the element cannot be drawn.
     bool readCorners(const Line& line, std::size_t fewest) {
         hasElements_ = true;
         corners_.clear();
@@ -262,7 +262,7 @@ private:
         return true;
     }
 
-    /// kNone, with the reason in `flaw`, where the index is not of an attribute.
+    /// Returns kNone, with the reason in `flaw`, if no attribute has the index.
     int indexFromStart(std::string_view part, Attribute attribute, std::string& flaw) const {
         const std::optional<long long> written = parseInteger(part);
         if (!written || *written == 0) {
@@ -278,7 +278,7 @@ private:
         return kNone;
     }
 
-    /// Notes the flaw of a used attribute, and takes a normal without direction off its corner. False of a position.
+    /// Notes the flaw of a used attribute; drops a flawed normal from its corner. Returns false for a flawed position.
     bool isUsable(Attribute attribute, int& used) {
         if (used == kNone || flaws_[attribute].empty()) return true;
         const auto flaw = flaws_[attribute].find(index(used));
@@ -300,14 +300,14 @@ private:
                              fmt::format("the smoothing group '{}' is neither a number from 0 nor on or off", word)};
     }
 
-    /// Positions far from 0, as of a survey, keep their digits as distances from an origin among them.
+    /// Chooses an origin among positions far from 0, as in surveys, so that offsets from it keep their precision.
     void placeOrigin() {
         Box3 box;
         for (std::size_t i = 0; i < obj_.positions.size(); ++i)
             if (isUsed_[i]) box.extend(obj_.positions[i]);
         const auto largest = [](const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); };
         const double size = largest(box.max - box.min);
-        constexpr double kFar = 16.0; // sizes of the model: single precision loses 4 of its 24 bits
+        constexpr double kFar = 16.0; // in model sizes: single precision loses 4 of its 24 bits
         if (size > 0.0 && largest(glm::max(glm::abs(box.min), glm::abs(box.max))) > kFar * size) {
             const double step = std::exp2(std::floor(std::log2(size))); // so that differences from it are exact
             obj_.origin = glm::round(0.5 * (box.min + box.max) / step) * step;
@@ -320,22 +320,22 @@ private:
     ObjFile obj_;
     VertexColours colours_;
     std::array<std::unordered_map<std::size_t, Flaw>, kAttributeCount>
-        flaws_;                                        ///< of attributes, noted where one is used
-    std::array<std::size_t, kAttributeCount> above_{}; ///< attributes above the element that is read
+        flaws_;                                        ///< of attributes, noted when one is used
+    std::array<std::size_t, kAttributeCount> above_{}; ///< attributes above the current element
     std::vector<bool> isUsed_;                         ///< by position
     std::unordered_map<std::string, int> materialOfName_;
-    // Of the next element.
+    // State of the next element.
     std::string groupName_;
     std::set<std::pair<int, int>> groupMeshes_; ///< modes and materials of the group's elements
     int material_ = kNone;
     std::optional<std::string> nextMaterial_; ///< named since the last element
     std::uint32_t smoothingGroup_ = 0;
     std::optional<Flaw> badSmoothing_;
-    // One element's, kept for their memory.
+    // Buffers of one element, kept for reuse.
     std::vector<Corner> corners_;
     std::vector<glm::dvec3> facePositions_;
-    std::uint64_t cornersOfFile_ = 0; ///< of all faces
-    std::uint64_t steps_ = 0;         ///< of cutting polygons
+    std::uint64_t cornersOfFile_ = 0; ///< in all faces
+    std::uint64_t steps_ = 0;         ///< of triangulation
     bool hasElements_ = false;
     std::set<std::string> unknown_;
 };

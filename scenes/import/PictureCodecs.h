@@ -8,14 +8,14 @@ namespace tessera::scenes {
 
 struct PictureFormat;
 
-/// What a picture's header says of it.
+/// The size that an image's header claims.
 struct PictureSize {
     std::int64_t width = 0, height = 0; ///< texels
-    std::uint64_t bytesATexel = 0;      ///< that decoding takes, copies counted
-    std::uint64_t bytes = 0;            ///< that it takes besides, for a row of tiles or the like
+    std::uint64_t bytesATexel = 0;      ///< memory for decoding, including copies
+    std::uint64_t bytes = 0;            ///< further memory for decoding, such as for a row of tiles
 };
 
-/// A picture that is to be decoded.
+/// An image to decode.
 struct PictureSource {
     std::span<const std::byte> bytes; ///< of its file
     const std::string& name;          ///< in messages
@@ -27,38 +27,38 @@ struct PictureSource {
     void require(bool isGood, std::string_view why) const {
         if (!isGood) fail(why);
     }
-    /// Charges the ledger. Throws InputError for a picture that no texture can be, that the ledger has no room for, or
-    /// that its file cannot hold; before memory is reserved for the texels.
+    /// Charges the ledger before memory is allocated for the texels. Throws InputError for an image that is too large
+    /// for a texture, for the ledger, or for its file.
     void charge(const PictureSize& size) const;
-    /// A picture of black texels. `bytesATexel`: that decoding takes.
+    /// An image of black texels. `bytesATexel`: memory for decoding.
     DecodedPicture blank(int width, int height, TexelFormat texels, std::uint64_t bytesATexel) const;
-    /// Makes a warning of the ledger of a flawed picture that is drawn. Throws InputError where the load is strict.
+    /// Adds a ledger warning about a flawed image that is drawn. Throws InputError if the load is strict.
     void noteRepair(const std::string& flaw, const std::string& repair) const;
 };
 
 /// Throws InputError.
 using DecodePicture = DecodedPicture(const PictureSource& source);
 
-/// Bytes that all files of a format have at one place.
+/// Bytes that all files of a format have at the same offset.
 struct PictureSignature {
     std::string_view bytes;
     std::size_t offset = 0;
 };
 
-/// All that is known of a format. OpenImageIO has many more readers, some of which crash on broken files, and some open
-/// what is no picture at all; none of them is ever asked.
+/// An image format. OpenImageIO has many more readers, some of which crash on broken files or open files that are not
+/// images; these are never used.
 struct PictureFormat {
     std::string_view name;          ///< in messages, and OpenImageIO's
     PictureSignature signatures[2]; ///< either identifies the format; none: its extension does
     std::string_view extensions[2]; ///< lower case
-    DecodePicture* decode;          ///< null: known by its first bytes and refused by name
-    /// Texels that a byte of a file may hold at most: a header that claims more is refused before memory is reserved
-    /// for them. 0 where a codec packs one colour without a bound, and the ledger alone counts.
+    DecodePicture* decode;          ///< null: recognised by its first bytes and refused by name
+    /// Maximum texels per byte of a file: a header that claims more is refused before memory is allocated for them. 0
+    /// if a codec packs one colour without a bound, so that only the ledger limits them.
     std::int64_t maxTexelsAByte = 0;
-    /// The size that the header claims, for readers that reserve memory, or take seconds, as soon as they see it; 0 x 0
-    /// where they are to say what is wrong. Throws std::runtime_error for claims that cannot be true.
+    /// The size that the header claims, for readers that allocate memory, or take seconds, as soon as they see it. A
+    /// size of 0 leaves the error to the reader. Throws std::runtime_error for impossible claims.
     PictureSize (*claimedSize)(std::span<const std::byte> bytes) = nullptr;
-    /// Takes descriptions, profiles and the like, which the reader would keep or crash on, out of a copy of the file.
+    /// Removes descriptions, profiles and the like, which the reader would keep or crash on, from a copy of the file.
     /// Throws like claimedSize.
     void (*takeOutMetadata)(std::span<std::byte> bytes) = nullptr;
 };
@@ -69,36 +69,36 @@ PictureSize claimedSizeOfGif(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes);
 PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes);
 
-/// Of the Exif segment; 1, upright, where there is none.
+/// The orientation in the Exif segment; 1, upright, if there is none.
 int orientationOfJpeg(std::span<const std::byte> bytes);
 void takeOutMetadataOfTiff(std::span<std::byte> bytes);
 
-/// Leaves of a TIFF's directories the first, and of that the first entry of each of these tags. False, and nothing is
-/// changed, where the file does not hold it.
+/// Keeps only a TIFF's first directory, and of that the first entry of each of these tags. Returns false without
+/// changes if the directory is not in the file.
 bool keepTiffTags(std::span<std::byte> tiff, std::span<const std::uint16_t> tags);
 
-/// The tag Orientation, also behind the bytes with which Exif begins; 1, upright, where there is none that can be read.
+/// The tag Orientation, also after an Exif header; 1, upright, if none can be read.
 int orientationOfTiff(std::span<const std::byte> tiff);
 
-/// Turns an image as stored with this Exif orientation, 1 to 8, upright. Charges the ledger for the copy.
+/// Turns an image stored with this Exif orientation, 1 to 8, upright. Charges the ledger for the copy.
 void turnUpright(Image& image, int orientation, LoadLedger& ledger);
 
-/// Where an image's texels lie within the displayed one.
+/// Position of an image's texels in the displayed image, and its size.
 struct DisplayWindow {
     std::int64_t left, top; ///< of the first texel, which may lie outside
     int width, height;
 };
-/// Copies an image into the black one that is displayed, which stays transparent where it does not reach if `hasAlpha`.
+/// Copies an image into the black displayed one. With `hasAlpha`, texels outside the image stay transparent.
 void placeInWindow(const Image& image, const DisplayWindow& window, bool hasAlpha, Image& placed);
 
-/// Calls `use` with a number of the type of a texel's channels.
+/// Calls `use` with a value of the C++ type of a texel's channels.
 template <typename Use>
 decltype(auto) withChannel(TexelFormat format, Use&& use) {
     if (format == TexelFormat::Rgba8Unorm) return use(std::uint8_t{});
     if (format == TexelFormat::Rgba16Unorm) return use(std::uint16_t{});
     return use(float{});
 }
-/// 1 as a channel of this type stores it.
+/// The value 1 as stored by a channel of this type.
 template <typename Channel>
 inline constexpr Channel kOneOf = std::is_integral_v<Channel> ? std::numeric_limits<Channel>::max() : Channel(1);
 
@@ -112,17 +112,17 @@ std::span<const Value> texelsOf(const Image& image) {
     return {reinterpret_cast<const Value*>(image.texels.data()), image.texels.size() / sizeof(Value)};
 }
 
-/// By OpenImageIO's reader of that format, and no other.
+/// Decodes by OpenImageIO's reader of that format only.
 DecodePicture decodeByOiio;
-/// Radiance HDR by OpenImageIO, which confuses two orientations and knows neither EXPOSURE lines nor XYZ.
+/// Radiance HDR by OpenImageIO, which confuses two orientations and ignores EXPOSURE lines and XYZ.
 DecodePicture decodeHdr;
-/// JPEG by libjpeg itself: OpenImageIO discards what precedes a fault.
+/// JPEG by libjpeg: OpenImageIO discards the texels before an error.
 DecodePicture decodeJpeg;
-/// PNG by libpng itself: OpenImageIO lets it print to stderr what is wrong.
+/// PNG by libpng: OpenImageIO lets it print errors to stderr.
 DecodePicture decodePng;
-/// WebP by libwebp itself: OpenImageIO multiplies colours by alpha.
+/// WebP by libwebp: OpenImageIO premultiplies colours by alpha.
 DecodePicture decodeWebp;
-/// BMP and TGA by stb_image: OpenImageIO's readers crash on palettes that are shorter than what refers to them.
+/// BMP and TGA by stb_image: OpenImageIO's readers crash on palettes that are too short for their indices.
 DecodePicture decodeByStb;
 /// PFM, which is a header and floats.
 DecodePicture decodePfm;

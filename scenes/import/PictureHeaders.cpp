@@ -8,14 +8,14 @@
 
 #include "scenes/import/PictureCodecs.h"
 
-/// OpenEXR's reader believes a header: it reserves what a value claims to take, 2 GiB at most, before it reads it. So
-/// the header is read here first, and by the same rules, or something could be hidden between the two.
+/// OpenEXR's reader trusts a header: it allocates the size that a value claims, 2 GiB at most, before reading it. The
+/// header is therefore read here first, by the same rules, so that no value escapes the check.
 namespace tessera::scenes {
 namespace {
 
 constexpr int kMaxSide = 1 << 20;                          ///< libpng stops a little earlier
 constexpr std::int64_t kMaxTexels = std::int64_t{1} << 28; ///< 16384 x 16384
-constexpr std::string_view kExifBegin("Exif\0\0", 6);      ///< a TIFF without a picture follows
+constexpr std::string_view kExifBegin("Exif\0\0", 6);      ///< a TIFF without an image follows
 
 /// 0 beyond the end.
 std::uint32_t byteAt(std::span<const std::byte> bytes, std::size_t at) {
@@ -40,7 +40,7 @@ bool beginsWithExif(std::span<const std::byte> bytes) {
 
 constexpr std::uint32_t kFrame = 0xc0, kRestart = 0xd0, kEnd = 0xd9, kScan = 0xda;
 
-/// Calls `visit` with every marker of a JPEG that has a segment, and the place of that: its length stands first.
+/// Calls `visit` with every marker of a JPEG that has a segment, and the segment's offset, where its length is stored.
 /// Source: ITU-T T.81, annex B; bytes between markers are skipped, as by libjpeg.
 template <typename Visit>
 void forEachSegment(std::span<const std::byte> bytes, Visit visit) {
@@ -60,7 +60,7 @@ void forEachSegment(std::span<const std::byte> bytes, Visit visit) {
 
 constexpr std::size_t kEntryBytes = 12;
 
-/// Numbers of a TIFF file, in its order of bytes; 0 beyond its end. Source: Adobe 1992, TIFF revision 6.0, section 2.
+/// Reads numbers of a TIFF file in its byte order; 0 beyond its end. Source: Adobe 1992, TIFF revision 6.0, section 2.
 class Tiff {
 public:
     explicit Tiff(std::span<const std::byte> bytes)
@@ -70,10 +70,10 @@ public:
 
     std::uint64_t number(std::size_t at, int count) const { return numberAt(bytes_, at, count, isBigEndian_); }
 
-    /// Where the first directory begins: with the number of its entries.
+    /// Offset of the first directory, which begins with the number of its entries.
     std::size_t directory() const { return number(4, 4); }
 
-    /// The entry of a tag in the first directory, or 0.
+    /// Offset of a tag's entry in the first directory, or 0.
     std::size_t entryOf(std::uint64_t tag) const {
         const std::uint64_t entries = number(directory(), 2);
         for (std::uint64_t i = 0; i < entries; ++i) {
@@ -83,7 +83,7 @@ public:
         return 0;
     }
 
-    /// The first number that a tag has, or `otherwise`. Other types than these libtiff reads too, by other rules.
+    /// The first number of a tag, or `otherwise`. Throws for other types, which libtiff reads by other rules.
     std::uint64_t valueOf(std::uint64_t tag, std::uint64_t otherwise) const {
         constexpr std::uint64_t kByte = 1, kShort = 3, kLong = 4;
         const std::size_t entry = entryOf(tag);
@@ -102,7 +102,7 @@ private:
     bool isBigEndian_;
 };
 
-/// The greatest number where it would be greater.
+/// A product that saturates instead of overflowing.
 std::uint64_t product(std::initializer_list<std::uint64_t> factors) {
     constexpr std::uint64_t kMost = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t result = 1;
@@ -111,20 +111,19 @@ std::uint64_t product(std::initializer_list<std::uint64_t> factors) {
     return result;
 }
 
-/// Those that decoding needs; of the others libtiff would copy each value, even one that thousands of tags share.
-/// Source: TIFF revision 6.0; Adobe's supplements (347); Pixar's (33300, 33301), SGI's
-/// (32996) and Esri's (50674).
+/// The tags that decoding needs. libtiff would copy each value of the others, even one that thousands of tags share.
+/// Source: TIFF revision 6.0; Adobe's supplements (347); Pixar's (33300, 33301), SGI's (32996) and Esri's (50674).
 constexpr std::uint16_t kDecodingTags[] = {
-    254,   256,   257, 258, 259,   262,   266, // the picture's kind, sides, bits, compression, colours, order of bits
-    273,   274,   277, 278, 279,               // strips, orientation, samples
-    282,   283,   284, 286, 287,   292,   293, 296, // resolution, planes, place, fax
-    305,   317,   318, 320, 322,   323,   324, 325, // software, predictor, white of Lab, palette, tiles
-    332,   338,   339, 347,                         // inks, alpha, numbers, tables of JPEG
-    529,   530,   531, 532, 33300, 33301,           // luma and chroma, sides of the whole picture
-    32996, 50674,                                   // SGI's kind of numbers, what packs LERC
+    254,   256,   257, 258, 259,   262,   266,      // subfile type, size, bits, compression, photometric, fill order
+    273,   274,   277, 278, 279,                    // strips, orientation, samples
+    282,   283,   284, 286, 287,   292,   293, 296, // resolution, planes, position, fax
+    305,   317,   318, 320, 322,   323,   324, 325, // software, predictor, white point, palette, tiles
+    332,   338,   339, 347,                         // ink set, extra samples, sample format, JPEG tables
+    529,   530,   531, 532, 33300, 33301,           // YCbCr, size of the full image
+    32996, 50674,                                   // SGI's data type, LERC parameters
 };
 
-/// Little-endian numbers and texts one after another; what lies beyond the end is 0 and empty.
+/// Reads consecutive little-endian numbers and texts; beyond the end they are 0 and empty.
 class Cursor {
 public:
     Cursor(std::span<const std::byte> bytes, std::size_t at) : bytes_(bytes), at_(std::min(at, bytes.size())) {}
@@ -137,7 +136,7 @@ public:
         return value;
     }
 
-    /// Up to a zero byte, which is taken too. Throws std::runtime_error where it is longer than OpenEXR lets names be.
+    /// Reads a null-terminated text. Throws std::runtime_error if it is longer than OpenEXR allows names to be.
     std::string text() {
         constexpr std::size_t kMostBytes = 255;
         const auto* first = reinterpret_cast<const char*>(bytes_.data()) + at_;
@@ -151,7 +150,7 @@ public:
     void skip(std::size_t count) { at_ += std::min(count, bytes_.size() - at_); }
     bool isAtEnd() const { return left() == 0; }
     std::size_t left() const { return bytes_.size() - at_; }
-    /// The next `count` bytes alone.
+    /// A cursor over the next `count` bytes only.
     Cursor part(std::size_t count) const { return Cursor(bytes_.first(std::min(at_ + count, bytes_.size())), at_); }
 
 private:
@@ -159,7 +158,7 @@ private:
     std::size_t at_;
 };
 
-/// Values of these types take so many bytes, whatever they claim: the reader does not look.
+/// Types whose values have a fixed size, which OpenEXR's reader assumes whatever they claim.
 struct FixedSize {
     std::string_view type;
     std::uint32_t bytes;
@@ -233,15 +232,15 @@ PictureSize claimedSizeOfGif(std::span<const std::byte> bytes) {
     return {std::int64_t(numberAt(bytes, 6, 2, false)), std::int64_t(numberAt(bytes, 8, 2, false)), 4};
 }
 
-/// Where texels need more than one scan, libjpeg reads all scans at once and keeps the coefficients, 2 bytes each, of
-/// all components.
+/// If texels need more than one scan, libjpeg reads all scans at once and keeps the coefficients, 2 bytes each, of all
+/// components.
 PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes) {
     constexpr int kMaxScans = 100; // encoders write about ten
     PictureSize size;
     std::uint32_t components = 0;
     int scans = 0;
     forEachSegment(bytes, [&](std::uint32_t marker, std::size_t at) {
-        const bool isFrame = marker == kFrame || (marker < kRestart && marker % 4 != 0); // 0xc4, 0xc8, 0xcc: none
+        const bool isFrame = marker == kFrame || (marker < kRestart && marker % 4 != 0); // not 0xc4, 0xc8, 0xcc
         if (isFrame && components == 0) {
             size.height = bigEndian16(bytes, at + 3);
             size.width = bigEndian16(bytes, at + 5);
@@ -260,7 +259,7 @@ PictureSize claimedSizeOfJpeg(std::span<const std::byte> bytes) {
 
 int orientationOfJpeg(std::span<const std::byte> bytes) {
     constexpr std::uint32_t kApp1 = 0xe1;
-    int orientation = 0; // of no segment yet
+    int orientation = 0; // 0: no segment yet
     forEachSegment(bytes, [&](std::uint32_t marker, std::size_t at) {
         if (marker != kApp1 || orientation != 0 || at + 2 > bytes.size()) return;
         const std::size_t length = std::min<std::size_t>(bigEndian16(bytes, at), bytes.size() - at);
@@ -325,8 +324,8 @@ void takeOutMetadataOfTiff(std::span<std::byte> bytes) {
     if (!keepTiffTags(bytes, kDecodingTags)) throw std::runtime_error("its directory of tags is not in the file");
 }
 
-/// libtiff and OpenImageIO hold a row of tiles, or a strip, as it is stored and as it is handed over: whole, however
-/// small the picture is. Colours that OpenImageIO leaves to libtiff are converted for the whole picture at once.
+/// libtiff and OpenImageIO each hold a row of tiles, or a strip, as stored and as decoded: whole, however small the
+/// image is. Colours that OpenImageIO leaves to libtiff are converted for the whole image at once.
 PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes) {
     constexpr std::uint64_t kWidth = 256, kHeight = 257, kBits = 258, kCompression = 259, kColours = 262,
                             kSamples = 277, kRows = 278, kTileWidth = 322, kTileHeight = 323;
@@ -345,14 +344,14 @@ PictureSize claimedSizeOfTiff(std::span<const std::byte> bytes) {
             product({kCopies, columns, rows, bytesASample, samples})};
 }
 
-/// The largest of the parts and their tiles. Source: "OpenEXR File Layout": attributes of name, type, size and value up
-/// to an empty name; of several parts up to an empty header.
+/// The largest of the parts and their tiles. Source: "OpenEXR File Layout": a header is a list of attributes (name,
+/// type, size, value) up to an empty name; files of several parts have headers up to an empty one.
 PictureSize claimedSizeOfExr(std::span<const std::byte> bytes) {
     constexpr std::uint32_t kHasParts = 0x1000;
     Cursor cursor(bytes, 4);
     const bool hasParts = (cursor.number<std::uint32_t>() & kHasParts) != 0;
     PictureSize size{0, 0, 16};
-    bool isEmpty = true; // no attribute yet of the present header
+    bool isEmpty = true; // the current header has no attribute yet
     while (!cursor.isAtEnd()) {
         const std::string name = cursor.text();
         if (name.empty()) {

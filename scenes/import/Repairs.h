@@ -13,14 +13,14 @@
 
 namespace tessera::scenes {
 
-/// Flaws of a model's files that are drawn repaired: one warning for each kind of repair in a file, with its first
-/// place and how many follow. A strict load refuses the first.
+/// Repaired flaws of a model's files: one warning for each kind of repair in a file, with its first place and the
+/// number of further ones. A strict load refuses the first flaw.
 class Repairs {
 public:
     explicit Repairs(bool isStrict) : isStrict_(isStrict) {}
 
-    /// A flaw at a line of the file (0: at none); `repair` names what is drawn instead. Throws InputError
-    /// "file:line: flaw" when strict.
+    /// Records a flaw at a line of the file (0: none); `repair` names what is drawn instead. Throws InputError
+    /// "file:line: flaw" if strict.
     template <typename... Values>
     void note(const std::string& file, int line, std::string_view repair, fmt::format_string<Values...> flaw,
               Values&&... values) {
@@ -37,8 +37,8 @@ public:
             [&] { return fmt::format("{}: {}: {}", file, place, fmt::format(flaw, std::forward<Values>(values)...)); });
     }
 
-    /// Calls `read`. A flaw that it throws is noted, unless the load is strict or memory does not suffice. Returns
-    /// whether there was none. Memory that was charged stays so: flawed parts take no more time than good ones.
+    /// Calls `read` and records a flaw that it throws, unless the load is strict or memory does not suffice. Returns
+    /// whether there was none. Charged memory stays charged, which bounds the time spent on flawed parts.
     template <typename Read>
     bool attempt(std::string_view repair, Read&& read) {
         try {
@@ -53,7 +53,7 @@ public:
         }
     }
 
-    /// The first flaw, "file:line: flaw"; empty where there is none.
+    /// The first flaw, "file:line: flaw"; empty if there is none.
     std::string first() const { return kinds_.empty() ? std::string() : kinds_.front().text; }
 
     std::vector<std::string> warnings() const {

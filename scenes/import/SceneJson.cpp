@@ -19,24 +19,24 @@ namespace {
 
 using namespace scenejson;
 
-/// Included files in all, nested ones counted: documents that each include the next one twice would grow without end.
+/// Limit of included files, counting nested ones: documents that each include the next twice would grow exponentially.
 constexpr int kMostIncludes = 4096;
-/// Documents that include or are based on one another: each takes some kilobytes of the call stack.
+/// Limit of nested documents (include or base): each takes some kilobytes of the call stack.
 constexpr std::size_t kMostNested = 64;
 constexpr int kVersion = 1;
 constexpr std::size_t kMostOptions = 256; ///< far more than there are settings
 
-/// How much of a scene its base made.
+/// The part of a scene that comes from its base.
 struct BaseSize {
     std::size_t materials = 0, images = 0;
-    /// Another variant of it was asked for than the document names: its own materials have other numbers there.
+    /// A variant other than the document's was requested, in which the base's materials have other indices.
     bool isInOtherVariant = false;
 };
 
-/// Where each name stands that elements of a kind have so far.
+/// The names of elements of one kind so far, with their indices.
 class Names {
 public:
-    /// Throws InputError at `value` where the name is taken.
+    /// Adds a name. Throws InputError at `value` if it is taken.
     void add(const std::string& name, const JsonValue& value) {
         const auto [taken, isNew] = elements_.try_emplace(name, elements_.size());
         if (!isNew) value.fail("the name '{}' is taken by element {}; give another", name, taken->second);
@@ -76,7 +76,7 @@ private:
                            [&] { return fmt::format("{}:/{}, {} elements", file.string(), key, list->size()); });
             return list->elements();
         };
-        // Everything that is quick to check comes before the files, and unknown keys before all of it.
+        // Quick checks come before files are read, and unknown keys before everything else.
         const std::vector<JsonValue> includes = elementsOf("include");
         const std::vector<JsonValue> materials = elementsOf("materials", sizeof(Material));
         const std::vector<JsonValue> overrides = elementsOf("overrides");
@@ -99,7 +99,7 @@ private:
         Names cameraNames;
         for (std::size_t i = 0; i < cameras.size(); ++i) {
             ownCameras.push_back(readCamera(cameras[i], i));
-            // Those that replace a base's may share names, as its own may.
+            // Cameras that replace a base's may share names, like the base's.
             if (!base) cameraNames.add(ownCameras.back().name, cameras[i]);
         }
 
@@ -131,7 +131,7 @@ private:
         if (const auto name = document.find("name")) scene.name = name->text();
     }
 
-    /// What a document says of the surroundings; what it does not say is a base's.
+    /// The environment keys of a document; the base's values apply to unset ones.
     struct EnvironmentWish {
         std::optional<glm::vec3> background;
         std::optional<JsonValue> map;
@@ -150,7 +150,7 @@ private:
         return wish;
     }
 
-    /// A map of null takes away that of the base.
+    /// Applies environment keys. A null map removes that of the base.
     void addEnvironment(const JsonValue& value, const EnvironmentWish& wish, Scene& scene) {
         if (wish.map) scene.environment.reset();
         if (wish.map && !wish.map->isNull()) scene.environment = loadMap(*wish.map, scene.warnings);
@@ -170,7 +170,7 @@ private:
         }
     }
 
-    /// A picture that several lights name is read once.
+    /// An image that several lights name is read once.
     LightTexture lightTexture(const JsonValue& name, std::vector<std::string>& warnings) {
         const std::string file = resolveFile(name).lexically_normal().string();
         const auto known = lightTextures_.find(file);
@@ -184,7 +184,7 @@ private:
         }
     }
 
-    /// All of a scene as it is alone, under the name of this one.
+    /// Loads the whole base into `scene`, under this document's name.
     BaseSize readBase(const JsonValue& value, Scene& scene) {
         JsonObject object = value.object();
         const JsonValue file = object.require("file");
@@ -209,7 +209,7 @@ private:
         return {scene.materials.size(), scene.images.size(), variant && asked && *asked != variant->text()};
     }
 
-    /// What `read` makes of a file, in a variant that its document names, where no other was asked for before.
+    /// Returns the result of `read` in the variant that a document names, unless another was requested before.
     template <typename Read>
     Scene inVariant(const std::optional<JsonValue>& variant, const Read& read) {
         const std::optional<std::string> before = ledger_.wishes().variant;
@@ -246,7 +246,7 @@ private:
             file.fail("is include number {} of the scene; at most {} are read", kMostIncludes + 1, kMostIncludes);
     }
 
-    /// A file that is included again and again is read twice, and the second one kept for the rest.
+    /// A file that is included repeatedly is read twice; the second result is kept and copied for the rest.
     Scene loadPart(const JsonValue& name) {
         const std::string text = name.text();
         const std::string file =
@@ -370,7 +370,7 @@ private:
                     option.fail(error.what());
                 }
             } else {
-                options.wishes[key] = readWish(option); // the floors above know the settings
+                options.wishes[key] = readWish(option); // checked by the layers above, which define settings
             }
         }
     }
@@ -387,17 +387,17 @@ private:
         return list;
     }
 
-    /// A file that is included.
+    /// An included file.
     struct Part {
         bool wasRead = false;
-        int includes = 0; ///< of its own
+        int includes = 0; ///< within it
         std::optional<Scene> kept;
     };
 
     LoadLedger& ledger_;
     std::map<std::pair<std::string, std::string>, Part> parts_; ///< by file and variant
     std::map<std::string, LightTexture> lightTextures_;         ///< by file
-    std::uint64_t keptBytes_ = 0;                               ///< of the scenes and pictures in both
+    std::uint64_t keptBytes_ = 0;                               ///< of the scenes and images in both
     std::vector<std::filesystem::path> chain_; ///< the documents being read, each included by the one before
     int includes_ = 0;
 };

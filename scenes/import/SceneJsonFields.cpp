@@ -7,7 +7,7 @@
 namespace tessera::scenes::scenejson {
 namespace {
 
-/// A struct whose members SceneJsonNames.h names.
+/// A struct whose members are listed in SceneJsonNames.h.
 template <typename Struct>
 concept HasMembers = requires(Struct& object) {
     visitMembers([](const char*, auto&) {}, object);
@@ -28,7 +28,7 @@ void read(const JsonValue& value, int& index) {
     index = value.integer(kNone, std::numeric_limits<int>::max());
 }
 
-/// Numbers; null is infinity, which JSON lacks.
+/// Reads a number; null is infinity, which JSON lacks.
 void read(const JsonValue& value, double& number) {
     number = value.isNull() ? std::numeric_limits<double>::infinity() : value.number();
 }

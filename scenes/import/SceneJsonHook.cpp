@@ -32,7 +32,7 @@ HookParameter readHookParameter(const JsonValue& value) {
     return parameter;
 }
 
-/// Other values of parameters that the base's hook has.
+/// Changes the values of parameters of the base's hook.
 void readValues(const JsonValue& values, Scene& scene) {
     if (!scene.hook) values.fail("there is no hook of a base whose parameters it would set; name a 'file'");
     JsonObject object = values.object();
@@ -58,7 +58,7 @@ std::vector<int> materialsCalled(const JsonValue& list, const Scene& scene) {
     return {materials.begin(), materials.end()};
 }
 
-/// Takes hash and functions of the file's text. Throws InputError where it is no hook.
+/// Reads the hash and the functions of a hook file. Throws InputError if it is not a hook.
 void readFile(const std::filesystem::path& file, LoadLedger& ledger, Hook& hook) {
     const std::uint64_t mark = ledger.usedBytes();
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);

@@ -66,7 +66,7 @@ glm::dmat4 readPlacement(JsonObject& object) {
     if (direction && target) target->fail("is given beside 'direction'; keep one");
     glm::dvec3 targetWS = eyeWS;
     if (direction) {
-        // The length of the step must not vanish beside a far eye.
+        // The step must not vanish by rounding at a far eye.
         targetWS += direction->direction() * std::max(1.0, glm::length(eyeWS));
     } else {
         targetWS = object.require("target").vector3();
@@ -124,7 +124,7 @@ std::vector<glm::dvec3> readPoints(const JsonValue& value, std::size_t least) {
     return points;
 }
 
-/// A key's value, or by how much it changes per second.
+/// Reads a key's value, or its tangent: the change per second.
 glm::dvec3 readKey(const JsonValue& value, const LightKeyedInfo& member, bool isTangent) {
     if (member.isOnSphere && !isTangent) return value.direction();
     if (member.member == LightKeyed::Position || isTangent)
@@ -135,7 +135,7 @@ glm::dvec3 readKey(const JsonValue& value, const LightKeyedInfo& member, bool is
             channels[2].number(0.0, kAnyNumber)};
 }
 
-/// `valuesKey` is what the object calls its values.
+/// `valuesKey`: the key of the values in the object.
 LightKeys readKeys(JsonObject& object, LightKeyed of, const char* valuesKey) {
     LightKeys keys;
     keys.of = of;
@@ -166,7 +166,7 @@ LightKeys readKeys(JsonObject& object, LightKeyed of, const char* valuesKey) {
     return keys;
 }
 
-/// Of each member of the light's type but its position, which moves by "animation".
+/// Reads keyframes of the members of the light's type, except the position, which "animation" moves.
 std::vector<LightKeys> readKeyframes(const JsonValue& value, const LightTypeInfo& type) {
     JsonObject object = value.object();
     std::vector<LightKeys> all;
@@ -305,7 +305,7 @@ glm::dmat4 readTransform(JsonObject& object) {
 }
 
 bool isRigid(const glm::dmat4& matrix) {
-    constexpr double kTolerance = 1e-3; // what files with a few decimals lose
+    constexpr double kTolerance = 1e-3; // rounding in files with a few decimals
     const glm::dmat3 rotation(matrix);
     for (int column = 0; column < 3; ++column)
         if (!(std::abs(glm::length(rotation[column]) - 1.0) <= kTolerance)) return false;
@@ -393,7 +393,7 @@ Light readLight(const JsonValue& value, std::size_t index, const ReadLightTextur
     }
     readFields(object, light);
     object.done(fmt::format("a {} light", type.text()));
-    // Last: a picture takes long to read, and the rest may be wrong.
+    // Last, because an image takes long to read and the rest may be wrong.
     if (texture) light.texture = readTexture(*texture);
     return light;
 }

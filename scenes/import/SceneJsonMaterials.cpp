@@ -44,7 +44,7 @@ public:
     Parameters(JsonObject& object, Material& material, Images& images)
         : object_(object), material_(material), images_(images) {}
 
-    /// `readFactor` is called with the factor, where one is given. Slot Count: none may have a texture.
+    /// Calls `readFactor` with the factor, if one is given. Slot Count: textures are not allowed.
     template <typename ReadFactor>
     void read(std::string_view key, TextureSlot slot, ReadFactor readFactor) {
         const std::optional<JsonValue> value = object_.find(key);
@@ -56,14 +56,14 @@ public:
         parts.done("a parameter with a texture");
     }
 
-    /// One of the table's.
+    /// Reads a parameter of the model's table.
     void parameter(const MaterialParameter& parameter) {
         read(parameter.key, parameter.slot, [&](const JsonValue& value) {
             std::visit([&](auto member) { setFactor(value, parameter.kind, member); }, parameter.member);
         });
     }
 
-    /// RGB, or RGB and opacity.
+    /// Reads RGB, or RGB and opacity.
     void baseColor(std::string_view key) {
         read(key, TextureSlot::BaseColor, [&](const JsonValue& value) {
             const std::vector<JsonValue> channels = value.elements(3, 4);
@@ -72,7 +72,7 @@ public:
         });
     }
 
-    /// Null: none.
+    /// Reads a texture; null: none.
     void texture(std::string_view key, TextureSlot slot) {
         if (const auto value = object_.find(key)) setTexture(*value, slot);
     }
@@ -105,7 +105,7 @@ public:
         map.done("a normal map");
     }
 
-    /// A map alone, or an object that has the key of its strength beside those of a texture.
+    /// Reads a texture, or an object with the keys of a texture and of its strength.
     void scaledMap(std::string_view key, TextureSlot slot, std::string_view strengthKey, float& strength) {
         const std::optional<JsonValue> value = object_.find(key);
         if (!value) return;
@@ -207,7 +207,7 @@ DiffusionProfile readProfile(const JsonValue& value) {
     return profile;
 }
 
-/// A method alone, or an object with what the methods are to use.
+/// Reads a method, or an object with a method and the parameters of methods.
 void readSubsurface(const JsonValue& value, Subsurface& subsurface) {
     const auto methodOf = [](const JsonValue& method) {
         return method.oneOf<SubsurfaceMethod>("subsurface method", kSubsurfaceMethodNames);
@@ -311,7 +311,7 @@ TextureUse readTexture(JsonObject& object, Images& images) {
     if (const auto set = object.find("texCoord")) use.texCoordSet = set->integer(0, 1);
     if (const auto transform = object.find("transform")) use.transform = readTextureTransform(*transform);
     if (const auto sampler = object.find("sampler")) use.sampler = readSampler(*sampler);
-    // Last: a picture takes long to read, and the rest may be wrong.
+    // Last, because an image takes long to read and the rest may be wrong.
     use.image = image ? images.baseImage(*image) : images.image(*file);
     return use;
 }
@@ -321,7 +321,7 @@ Material readMaterial(const JsonValue& value, Images& images) {
     Material material;
     material.name = object.require("name").text();
     object.require("model");
-    object.find("replaces"); // the caller's
+    object.find("replaces"); // read by the caller
     changeMaterial(object, material, images);
     return material;
 }

@@ -5,13 +5,13 @@
 
 #include "scenes/import/JsonReader.h"
 
-/// What .json scenes call the choices of Scene.h; reader and writer share these tables.
+/// Names of Scene.h's enumerators in .json scenes; reader and writer share these tables.
 namespace tessera::scenes::scenejson {
 
 template <typename Choice>
 using Named = std::pair<std::string_view, Choice>;
 
-/// The names of a table of descriptions, each with what its member `choice` holds.
+/// The names in a table of descriptions, each with the value of member `choice`.
 template <std::size_t kCount, typename Info, typename Choice>
 constexpr std::array<Named<Choice>, kCount> namesOf(std::span<const Info> infos, Choice Info::*choice) {
     std::array<Named<Choice>, kCount> names;
@@ -21,7 +21,7 @@ constexpr std::array<Named<Choice>, kCount> namesOf(std::span<const Info> infos,
 
 inline constexpr Named<Wrap> kWraps[] = {
     {"repeat", Wrap::Repeat}, {"clamp_to_edge", Wrap::ClampToEdge}, {"mirrored_repeat", Wrap::MirroredRepeat}};
-/// The first two are those of magnification.
+/// The first two are valid for magnification.
 inline constexpr Named<Filter> kFilters[] = {{"nearest", Filter::Nearest},
                                              {"linear", Filter::Linear},
                                              {"nearest_mipmap_nearest", Filter::NearestMipmapNearest},
@@ -29,7 +29,7 @@ inline constexpr Named<Filter> kFilters[] = {{"nearest", Filter::Nearest},
                                              {"nearest_mipmap_linear", Filter::NearestMipmapLinear},
                                              {"linear_mipmap_linear", Filter::LinearMipmapLinear}};
 inline constexpr auto kModels = namesOf<kMaterialModelCount>(materialModels(), &MaterialModelInfo::model);
-/// The first two are those of isotropic microfacets.
+/// The first two are valid for isotropic microfacets.
 inline constexpr Named<Masking> kMaskings[] = {
     {"walter", Masking::Walter}, {"half_vector", Masking::HalfVector}, {"directional", Masking::Directional}};
 inline constexpr Named<AlphaMode> kAlphaModes[] = {
@@ -69,7 +69,7 @@ inline constexpr Tables<Wrap, Filter, MaterialModel, Masking, AlphaMode, NormalM
             kInterpolations, kKeyRepeats,      kKeyedMembers,   kProjections};
 } // namespace namedetail
 
-/// The table of a type of choice.
+/// The name table of an enumeration.
 template <typename Choice>
 constexpr std::span<const Named<Choice>> choicesOf(Choice) {
     return std::get<std::span<const Named<Choice>>>(namedetail::kTables);
@@ -83,8 +83,8 @@ std::string_view nameOf(Choice choice) {
 }
 
 // ---- Members -------------------------------------------------------------------------------------------------------
-// Of Scene.h's structs by name: "fields" of a light, a camera or a material may set each of them, for any type or
-// model. A visitor is called with a member's name and that member of each of the objects.
+// Members of Scene.h's structs by name: "fields" of a light, a camera or a material may set each of them, for any type
+// or model. The visitor receives a member's name and that member of each object.
 
 template <typename Element, typename Struct>
 concept Is = std::same_as<std::remove_const_t<Element>, Struct>;
@@ -180,8 +180,8 @@ void visitMembers(auto&& visit, Is<Material> auto&... material) {
         visit(kTextureFields[slot], material.textures[slot]...);
 }
 
-/// Read the key "fields" of an object, where there is one. Throws InputError for unknown members and wrong types; what
-/// is out of range checkScene() finds.
+/// Read the key "fields" of an object, if there is one. Throw InputError for unknown members and wrong types;
+/// checkScene() finds values out of range.
 void readFields(JsonObject& object, Light& light);
 void readFields(JsonObject& object, Camera& camera);
 void readFields(JsonObject& object, Material& material);

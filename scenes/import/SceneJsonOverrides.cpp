@@ -7,7 +7,7 @@
 namespace tessera::scenes::scenejson {
 namespace {
 
-/// Elements of a kind by name.
+/// Looks up elements by name.
 template <typename Element>
 class ByName {
 public:
@@ -16,7 +16,7 @@ public:
         std::ranges::stable_sort(sorted_, {}, [this](std::size_t i) { return nameOf(i); });
     }
 
-    /// Their indices, ascending.
+    /// The indices of the elements with a name, ascending.
     std::span<const std::size_t> called(std::string_view name) const {
         const auto byName = [this](std::size_t i) { return nameOf(i); };
         // Not equal_range(), whose result clang 14 cannot take with the GNU library.
@@ -24,7 +24,7 @@ public:
                 std::ranges::upper_bound(sorted_, name, {}, byName)};
     }
 
-    /// Each once, in the elements' order.
+    /// Distinct names, in the elements' order.
     std::vector<std::string_view> names() const {
         std::vector<std::string_view> names;
         std::unordered_set<std::string_view> known;
@@ -38,7 +38,7 @@ public:
 
 private:
     std::span<const Element> elements_;
-    std::vector<std::size_t> sorted_; ///< indices by name
+    std::vector<std::size_t> sorted_; ///< indices, sorted by name
 };
 
 class Overrides {
@@ -61,12 +61,12 @@ public:
         changeMaterials(value, *material);
     }
 
-    /// Gives the nodes what is bound to them or to a node above: the last override counts.
+    /// Applies bindings to nodes and their descendants: the last override counts.
     void bind() {
         for (std::size_t i = 0; i < scene_.nodes.size(); ++i) {
             Node& node = scene_.nodes[i];
             for (std::vector<int>* binding : {&materialBinding_, &shadowBinding_}) {
-                // A parent stands before its children, so it has its own already.
+                // A parent precedes its children, so its bindings are final.
                 if (node.parent != kNone) (*binding)[i] = std::max((*binding)[i], (*binding)[std::size_t(node.parent)]);
             }
             for (MeshInstance& instance : node.instances) {
@@ -79,7 +79,7 @@ public:
     }
 
 private:
-    /// What an override of nodes gives them.
+    /// Properties that an override binds to nodes.
     struct Bound {
         std::optional<int> material;
         std::optional<bool> castsShadow;
@@ -103,7 +103,7 @@ private:
         bound_.push_back(bound);
     }
 
-    /// A material to bind: the document's own of that name, else the first included one.
+    /// The material to bind: the document's local one of that name, else the first included one.
     int materialCalled(const JsonValue& value) const {
         const std::string name = value.text();
         const std::span<const std::size_t> called = materials_.called(name);
@@ -117,7 +117,7 @@ private:
         if (matches.empty()) pattern.failUnknown("included material", pattern.text(), included_.names());
         charge(kStepsAChange * matches.size(), pattern);
         for (const std::size_t material : matches) {
-            JsonObject object = value.object(); // anew, because each material's model has other keys
+            JsonObject object = value.object(); // a new one per material, because models have different keys
             object.find("material");
             changeMaterial(object, scene_.materials[material], images_);
         }
@@ -140,11 +140,11 @@ private:
         return matches;
     }
 
-    /// A step takes about a nanosecond: a character held to a pattern, a tenth of a look at an element, or a thousandth
-    /// of a change of a material.
+    /// Steps of about a nanosecond: 1 per character compared with a pattern, 10 per visited element, 1000 per changed
+    /// material.
     static constexpr std::size_t kStepsALook = 10, kStepsAChange = 1000, kMostSteps = 1'000'000'000;
 
-    /// Many overrides that match as many, or patterns that begin again at every character, would take very long.
+    /// Limits the time of many overrides with many matches, and of patterns that start again at every character.
     void charge(std::size_t steps, const JsonValue& pattern) {
         if ((steps_ += steps) > kMostSteps)
             pattern.fail("the overrides up to here take more than {} steps to find and change nodes and "
@@ -156,13 +156,13 @@ private:
     Images& images_;
     ByName<Node> nodes_;
     ByName<Material> materials_, included_;
-    std::vector<Bound> bound_;                         ///< by the overrides of nodes, in their order
+    std::vector<Bound> bound_;                         ///< by override of nodes, in order
     std::vector<int> materialBinding_, shadowBinding_; ///< index in bound_ by node; kNone is none
     std::vector<bool> isDrawn_;                        ///< whether a mesh is drawn at or below a node
     std::size_t steps_ = 0;
 };
 
-/// Removes the other elements. Returns the new index of each, kNone where it is removed.
+/// Removes all other elements. Returns the new index of each element, kNone if removed.
 template <typename Element>
 std::vector<int> keepOnly(std::vector<Element>& elements, const std::vector<bool>& isKept) {
     std::vector<int> newIndex(elements.size(), kNone);
@@ -180,7 +180,7 @@ std::vector<int> keepOnly(std::vector<Element>& elements, const std::vector<bool
 
 PatternMatch matchesPattern(std::string_view pattern, std::string_view name) {
     std::size_t at = 0;
-    std::size_t star = std::string_view::npos; // the last one seen, which takes up whatever the rest does not
+    std::size_t star = std::string_view::npos; // the last '*', which matches all that the rest does not
     std::size_t taken = 0;
     std::size_t steps = 0;
     for (std::size_t i = 0; i < name.size(); ++steps) {

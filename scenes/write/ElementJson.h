@@ -1,17 +1,17 @@
 #pragma once
 #include "scenes/write/JsonFields.h"
 
-/// Elements of a scene as .json scenes have them. What the keys of their type cannot say, such as the cone of a point
-/// light that was a spot and may become one again, stands under "fields": every element is read back as it is.
+/// JSON of a scene's elements for .json scenes. What the keys of their type cannot express, such as the cone of a point
+/// light that was a spot and may become one again, is stored under "fields", so that elements are read back exactly.
 namespace tessera::scenes::write {
 
-/// `texture` is what the document calls the light's picture. A light whose type takes none loses it.
+/// `texture` is the document's name for the light's texture. A light whose type has none loses it.
 Json lightJson(const Light& light, const std::string& texture = "");
 Json cameraJson(const Camera& camera);
-/// Its pictures are named by their number in the base.
+/// Images are referenced by their index in the base.
 Json materialJson(const Material& material, std::size_t images);
 
-/// The angle in the fewest decimal degrees that are read back as the same radians, or as near as can be.
+/// The angle in degrees with the fewest digits that is read back as the same radians, or as near as possible.
 Json degreesOf(float angleRadians);
 Json degreesOf(double angleRadians);
 

@@ -103,12 +103,12 @@ Json fieldOf(const LightFlicker& flicker) {
 
 Json fieldOf(const TextureUse& use) {
     Json json = Json::object();
-    // All members: the existing object is changed, not recreated.
+    // All members, since the reader changes an existing object.
     scenejson::visitMembers([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, use);
     return json;
 }
 
-// All members, as of textures.
+// All members, as for textures.
 Json fieldOf(const DiffusionGaussian& gaussian) {
     Json json = Json::object();
     scenejson::visitMembers([&json](const char* key, const auto& member) { json[key] = fieldOf(member); }, gaussian);
@@ -133,7 +133,7 @@ Json number(float value) {
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
     double shortest = 0.0;
     std::from_chars(text.data(), end, shortest);
-    // Read as a double and rounded to single, text beside the middle of two floats may end up at the other one.
+    // Text near the middle of two floats, read as a double and rounded to fp32, may become the other one.
     return static_cast<float>(shortest) == value ? Json(shortest) : Json(static_cast<double>(value));
 }
 

@@ -3,14 +3,14 @@
 
 #include "scenes/Scene.h"
 
-/// Values of a scene as JSON that is read back to the last bit.
+/// Values of a scene as JSON that is read back bit for bit.
 namespace tessera::scenes::write {
 
 /// Keys in the order in which they were added.
 using Json = nlohmann::ordered_json;
 
-/// The number with the fewest digits that is read back as the same float, or double; null, which "fields" reads back,
-/// for infinity.
+/// The number with the fewest digits that is read back as the same float, or double. Infinity becomes null, which
+/// "fields" reads back.
 Json number(float value);
 Json number(double value);
 
@@ -22,7 +22,7 @@ Json numbers(const glm::vec<Length, Number>& vector) {
 }
 Json numbers(const glm::dmat4& matrix); ///< column by column
 
-/// The members in which `wanted` differs from `got`, by the names of Scene.h; null where it does not.
+/// The members in which `wanted` differs from `got`, by the names of Scene.h; null if all are equal.
 Json fieldsThatDiffer(const Light& wanted, const Light& got);
 Json fieldsThatDiffer(const Camera& wanted, const Camera& got);
 Json fieldsThatDiffer(const Material& wanted, const Material& got);

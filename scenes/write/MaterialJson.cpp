@@ -46,7 +46,7 @@ public:
 
     void baseColor(const char* key) { parameter(key, numbers(material_.baseColor), TextureSlot::BaseColor); }
 
-    /// One of the table's.
+    /// A parameter of the model's table.
     void parameter(const MaterialParameter& parameter) {
         this->parameter(parameter.key, factorOf(parameter.member), parameter.slot);
     }
@@ -112,7 +112,7 @@ Json profileJson(const DiffusionProfile& profile) {
     return list;
 }
 
-/// What differs from a material of which nothing is said, and the method.
+/// The method, and all values that differ from the defaults.
 Json subsurfaceJson(const Subsurface& subsurface) {
     const Subsurface none;
     Json json;

@@ -19,7 +19,7 @@ bool isDocument(const fs::path& file) {
     return extensionOf(file) == ".json";
 }
 
-/// The ledger is charged until the document is read: nothing but one at a time is kept.
+/// Charges the ledger until the document is read, since only one is kept at a time.
 nlohmann::json documentOf(const fs::path& file, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
     const std::vector<std::byte> bytes = readFileBytes(file, ledger);
@@ -45,7 +45,7 @@ bool onlyEdits(const nlohmann::json& document) {
         return false;
     const nlohmann::json materials = document.value("materials", nlohmann::json::array());
     return std::ranges::all_of(materials, [](const nlohmann::json& material) {
-        // A texture that is named as text is a file too, and adds a picture to those that are counted.
+        // A texture given as text is a file too, and adds an image to the counted ones.
         const bool namesText = std::ranges::any_of(material, [](const nlohmann::json& parameter) {
             return parameter.is_object() && parameter.contains("texture") && parameter["texture"].is_string();
         });
@@ -57,12 +57,12 @@ bool onlyEdits(const nlohmann::json& document) {
     });
 }
 
-/// The file that `value`, under `key` of the document, names.
+/// The file named by `value`, which stands under `key` of the document.
 fs::path fileNamed(const nlohmann::json& value, const fs::path& document, const char* key) {
     return scenejson::resolveFile(JsonValue(value["file"], document, std::string("/") + key + "/file"));
 }
 
-/// The file and all that it is made of, each once.
+/// The document and all documents that it is based on or includes, each once.
 std::vector<fs::path> documentsOf(const fs::path& first, LoadLedger& ledger) {
     std::vector<fs::path> documents, open{first};
     std::set<fs::path> known;
@@ -83,13 +83,13 @@ std::vector<fs::path> documentsOf(const fs::path& first, LoadLedger& ledger) {
     return documents;
 }
 
-/// Follows bases down to the first that is more than edits.
+/// Follows bases to the first document that is more than edits.
 void followBases(fs::path file, SceneOrigin& origin, LoadLedger& ledger) {
     while (isDocument(file)) {
         const nlohmann::json document = documentOf(file, ledger);
         if (!onlyEdits(document)) break;
         if (document.contains("materials"))
-            for (const nlohmann::json& material : document["materials"]) // an upper document's stay
+            for (const nlohmann::json& material : document["materials"]) // upper documents take precedence
                 origin.replacedMaterials.try_emplace(material["replaces"].get<std::size_t>(), material.dump());
         const nlohmann::json& base = document["base"];
         if (!origin.variant && base.contains("variant")) origin.variant = base["variant"].get<std::string>();

@@ -6,23 +6,22 @@
 
 namespace tessera::scenes {
 
-/// The file of a scene and its original contents, to which a file that holds only later edits refers.
+/// A scene's file and original contents, which a file of later edits refers to.
 struct SceneOrigin {
     std::string base;                   ///< absolute path of a scene file, or builtin:NAME
-    std::optional<int> lights;          ///< that a built-in scene was asked to make
+    std::optional<int> lights;          ///< requested number of lights of a built-in scene
     bool useAssets = true;              ///< whether it may use the models of TESSERA_ASSETS
-    std::optional<std::string> variant; ///< of models that was asked for, by a command or a file above the base
-    /// Materials that .json files between the base and the scene replace, as JSON by index. Such files need not exist
-    /// any more for what is edited further.
+    std::optional<std::string> variant; ///< requested variant of models, by a command or a file above the base
+    /// Materials replaced by .json files between the base and the scene, as JSON by index. Further edits do not need
+    /// these files.
     std::map<std::size_t, std::string> replacedMaterials;
-    std::vector<std::filesystem::path> documents; ///< .json files that the base is made of: not to be written over
-    std::vector<Material> materials;              ///< as they were loaded, at rest
+    std::vector<std::filesystem::path> documents; ///< .json files of the base; they must not be overwritten
+    std::vector<Material> materials;              ///< as loaded, with rest values
     std::size_t images = 0, meshes = 0, nodes = 0;
 };
 
-/// The origin of a scene that loadScene() has just made of these. Reads its documents again, one at a time, under a
-/// ledger that begins with what the scene takes. Throws InputError where a file has changed since in a way that cannot
-/// be read, or that takes too much.
+/// The origin of a scene that loadScene() has just loaded with these arguments. Rereads its documents one at a time,
+/// with a ledger that starts with the scene's memory. Throws InputError if one is now unreadable or too large.
 SceneOrigin originOf(const std::string& nameOrPath, const LoadOptions& options, const Scene& loaded);
 
 } // namespace tessera::scenes

@@ -22,8 +22,8 @@ using write::Json;
     throw InputError(fmt::format("{}: {}", file.string(), what));
 }
 
-/// A file as the new one names it: links in folders are followed, those of the file itself are not, because what a base
-/// names lies beside the name it was opened by.
+/// A file's name within the new file. Symbolic links of folders are resolved, those of the file itself are not: what a
+/// base names lies beside the name it was opened by.
 std::string nameIn(const std::string& source, const fs::path& file) {
     if (source.starts_with(kBuiltinPrefix)) return source;
     const fs::path named(source);
@@ -55,7 +55,7 @@ Json baseJson(const SceneOrigin& origin, const fs::path& file) {
 }
 
 Json materialsJson(const Scene& scene, const SceneOrigin& origin) {
-    const std::vector<Material> now = restingMaterials(scene); // a pose is no edit
+    const std::vector<Material> now = restingMaterials(scene); // poses are not edits
     Json materials = Json::array();
     for (std::size_t i = 0; i < now.size(); ++i) {
         const auto replaced = origin.replacedMaterials.find(i);
@@ -71,7 +71,7 @@ Json materialsJson(const Scene& scene, const SceneOrigin& origin) {
     return materials;
 }
 
-/// Whole numbers as such: "size": [640, 360].
+/// Writes whole numbers without a fraction: "size": [640, 360].
 Json wishJson(double value) {
     constexpr double kMostWhole = 9007199254740992.0; // 2^53
     const bool isWhole = value == std::floor(value) && std::abs(value) <= kMostWhole && !std::signbit(value);
@@ -98,7 +98,7 @@ Json environmentJson(const Scene& scene, const fs::path& file, const Environment
     return object;
 }
 
-/// The hook itself is the base's.
+/// Parameter values only; the hook itself is in the base.
 Json hookValuesJson(const Hook& hook) {
     Json values = Json::object();
     for (const HookParameter& parameter : hook.parameters)
@@ -106,7 +106,7 @@ Json hookValuesJson(const Hook& hook) {
     return values;
 }
 
-/// `isSeen`: the environment itself has what a view made of it.
+/// `isSeen`: the environment already contains the view's rotation and intensity.
 Json optionsJson(const Scene& scene, bool isSeen) {
     SceneOptions options = scene.options;
     if (isSeen) askForNoView(options);
@@ -115,13 +115,13 @@ Json optionsJson(const Scene& scene, bool isSeen) {
         object[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
     if (options.camera) object["camera"] = *options.camera;
     if (options.clip) object["clip"] = *options.clip;
-    // Who takes away the last light wants the dark.
+    // A scene whose lights were all removed must stay dark.
     const bool isDark = scene.lights.empty() && !scene.environment;
     if (options.defaultLight || isDark) object["defaultLight"] = options.defaultLight.value_or(false);
     return object;
 }
 
-/// An element a line: a scene of many lights is still read, compared and edited line by line.
+/// One element per line, so that a scene of many lights can be read, compared and edited by line.
 std::string textOf(const Json& document) {
     std::string text = "{";
     for (const auto& [key, value] : document.items()) {
@@ -166,7 +166,7 @@ std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::p
     document["options"] = optionsJson(scene, seen && scene.environment);
     try {
         return textOf(document);
-    } catch (const nlohmann::json::type_error&) { // what dump() throws for text that is not UTF-8
+    } catch (const nlohmann::json::type_error&) { // thrown by dump() for text that is not UTF-8
         fail(file, "a name of the scene or of its file is not UTF-8, which JSON needs; rename it");
     }
 }

@@ -5,8 +5,8 @@
 
 namespace tessera::scenes::write {
 
-/// `json` with the "fields" that it takes for `read` to make the same element of it. What the keys cannot hold at all
-/// is written as `least`, which `read` accepts, and fields.
+/// Adds to `json` the "fields" that `read` needs to restore the element. If `read` rejects `json`, `least`, which it
+/// accepts, is written with fields instead.
 template <typename Element, typename Read>
 Json withFields(const Element& element, Json json, const Json& least, Read read) {
     const std::filesystem::path noFile;

@@ -1,4 +1,4 @@
-// Lights a surface that is computed, not stored, at every pixel, by the product's own loop over all lights.
+// Shades a procedural surface at every pixel with the renderer's loop over all lights; reads no G-buffer.
 #include "bench/light_store.glsl"
 #include "bench/bound_surface.glsl"
 #include "lib/lighting/lighting.glsl"

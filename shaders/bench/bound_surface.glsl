@@ -1,5 +1,5 @@
-// The surface that the measured lower bound lights (validation/lower_bound/LowerBoundLighting.h). It has the scene's models, is computed
-// from the pixel coordinates alone and differs at every pixel, so that no compiler moves work out of the light loop.
+// Procedural surface of the lower-bound benchmark (validation/lower_bound/LowerBoundLighting.h), with the scene's
+// models. It differs at every pixel, so that compilers cannot hoist work out of the light loop.
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "lib/maths/octahedral.glsl"
@@ -13,7 +13,7 @@ float boundFraction(vec2 pixel, vec2 steps)
     return share;
 }
 
-// Between the two distances of bench/lower_bound.h.
+// Depth-buffer value between the two distances of bench/lower_bound.h.
 float boundDepth(vec2 pixel)
 {
     precise float viewDepth = BOUND_NEAREST_METRES
@@ -23,8 +23,8 @@ float boundDepth(vec2 pixel)
 }
 
 #if HAS_LIT_MODELS
-// Where the scene uses several lit models they take turns in blocks of 64 pixels, so that the pixels that a processor
-// shades side by side share one, as they do on most surfaces of a scene.
+// Alternates between the scene's lit models in blocks of 64 x 64 pixels, so that pixels shaded side by side share a
+// model, as on most surfaces of a scene.
 uint boundModel(vec2 pixel)
 {
 #ifdef SOLE_MODEL
@@ -36,7 +36,7 @@ uint boundModel(vec2 pixel)
 #endif
 }
 
-// What some models and layers have beside; every surface has it where the scene's features include it.
+// Sets the parameters of optional lobes and layers, on every surface if the scene's features include them.
 void setBoundLobes(vec2 pixel, inout Surface surface)
 {
     setNeutralLobes(surface);

@@ -1,4 +1,4 @@
-// One value wherever there is geometry; only alpha-masked materials have anything to decide.
+// Writes a constant wherever there is geometry; only alpha-masked materials discard.
 #if HAS_ALPHA_MASK
 #include "lib/raster/rasterised.glsl"
 #endif

@@ -1,5 +1,5 @@
-// The stores of lights that the measured lower bound compares with the product's
-// (validation/lower_bound/LowerBoundLighting.h). Include it before lighting code. LIGHT_STORE_TEXEL leaves the product's.
+// Light stores that the lower-bound benchmark (validation/lower_bound/LowerBoundLighting.h) compares with the
+// renderer's. Include before lighting code. LIGHT_STORE_TEXEL keeps the renderer's.
 #pragma once
 #include "bench/lower_bound.h"
 #include "shared/slots.h"
@@ -40,7 +40,7 @@ vec4 lightTexel(int index, int texel)
     return lightTexels[index * LIGHT_TEXELS + texel];
 }
 
-// The same in the order of LightShapeTexels and, behind them, LightCornerTexels.
+// A texel in the order of LightShapeTexels, followed by LightCornerTexels.
 vec4 lightShapeTexel(int index, int texel)
 {
     return lightShapeTexels[index * SHAPE_TEXELS_A_LIGHT + texel];

@@ -1,4 +1,4 @@
-// The environment, seen past everything.
+// Draws the environment behind everything.
 #include "shared/slots.h"
 #include "lib/surface/camera.glsl"
 #if BACKDROP_BLURRED

@@ -1,5 +1,5 @@
-// The picture that bodies of glass look up: rgb of what covers the pixel, times a, the share that it covers. What is seen
-// where nothing was drawn is left out.
+// The image that bodies of glass look up: rgb radiance times the coverage a. The background, where nothing was drawn,
+// is left out.
 #include "shared/slots.h"
 #include "lib/raster/depth_step.glsl"
 
@@ -23,8 +23,8 @@ float firstDepth(ivec2 pixel)
     return texelFetch(depthImage, clamp(pixel, ivec2(0), textureSize(depthImage) - 1), 0).r;
 }
 
-// At the pixel's centre, where rays are held against it, of the surface that its first sample shows. It lies between the
-// depths of the samples.
+// Depth of the first sample's surface at the pixel's centre, where rays are compared with it; within the depths of the
+// samples.
 float depthAtCentre(ivec2 pixel)
 {
     const vec2 kPlaces[SAMPLES] = vec2[](SAMPLE_PLACES); // from the pixel's lower left corner

@@ -1,5 +1,5 @@
-// Coarser levels of the picture that bodies of glass look up, one above the other: means over squares of pixels, those of
-// its edges over what there is of them.
+// Coarser levels of the image that bodies of glass look up, stacked in one texture: means over squares of pixels, at
+// the image's edges over their pixels inside.
 #include "shared/slots.h"
 #include "shared/refraction.h"
 
@@ -19,7 +19,7 @@ void main()
         for (int x = begin.x; x < end.x; ++x) row += texelFetch(behindPicture, ivec2(x, y), 0);
         sum += row;
     }
-    // Beside a level there is nothing.
+    // Texels beside a level are empty.
     ivec2 sides = max(end - begin, ivec2(0));
     precise vec4 mean = sum / float(max(sides.x * sides.y, 1));
     behindLevels = mean;

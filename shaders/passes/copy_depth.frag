@@ -1,4 +1,4 @@
-// The depths of a picture, sample by sample.
+// Copies a depth buffer, sample by sample.
 #include "shared/slots.h"
 
 #if SAMPLES > 1

@@ -1,4 +1,4 @@
-// Lights every covered pixel once from the G-buffer, as a fragment or as an invocation (LIGHTING_IN_COMPUTE).
+// Shades every covered pixel once from the G-buffer, as a fragment or compute shader (LIGHTING_IN_COMPUTE).
 #include "shared/slots.h"
 #include "lib/gbuffer/gbuffer.glsl"
 #include "lib/lighting/views.glsl"
@@ -40,7 +40,7 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = depthOfPixel(pixel);
-    // Without discard: a software rasteriser reads and masks the pixels of a target whose shader may discard.
+    // Avoids discard, which makes software rasterisers read and mask the pixels of the target.
     radiance = view.background;
     if (depth != 0.0) radiance = deferredRadiance(pixel, depth);
 }

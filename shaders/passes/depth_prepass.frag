@@ -1,6 +1,6 @@
-// Depth alone; only alpha-masked materials have anything to decide. With SHADING_DEPTH also the depth at which each
-// sample will be lit, which with several samples per pixel is not the sample's own depth, and the same negated, so that
-// the largest of each over a pixel is its range.
+// Depth only; only alpha-masked materials discard. With SHADING_DEPTH also writes the depth at which each sample is
+// shaded, which differs from the sample's depth with several samples per pixel, and its negative, so that the maxima of
+// both over a pixel are the range.
 #include "lib/raster/shading_place.glsl"
 #if HAS_ALPHA_MASK
 #include "lib/raster/rasterised.glsl"

@@ -1,4 +1,4 @@
-// How much two pictures differ, amplified, as display code values; magenta where one of them holds no number.
+// Amplified difference of two images as display code values; magenta where one of them is not finite.
 #include "shared/slots.h"
 #include "shared/display.h"
 #include "shared/tonemap.h"

@@ -1,4 +1,4 @@
-// Hands on the light of an object's texels to the next level, filled where the surface goes on.
+// Copies an object's light to the next level; texels outside charts get it from where the surface continues.
 #include "passes/filled_light.glsl"
 
 layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D light;

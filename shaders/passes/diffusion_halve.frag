@@ -1,4 +1,4 @@
-// Halves the resolution: the mean of those texels of four that hold light.
+// Halves the resolution: the mean of those of four texels that hold light.
 #include "shared/diffusion.h"
 
 layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D light;

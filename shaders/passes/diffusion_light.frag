@@ -1,5 +1,5 @@
-// Lights the texels of an object, as a surface that reflects to all sides alike: what enters it. Pixels are lit by the
-// frame's lights as far as light does not spread, but not by what passes through the object: that share stays here.
+// Lights the texels of an object as a Lambertian surface: computes the light that enters. Pixels reflect the undiffused
+// fraction of the frame's lights, but not of light transmitted through the object: the texels keep that fraction here.
 #include "lib/raster/rasterised.glsl"
 #include "lib/lighting/lighting.glsl"
 #include "shared/diffusion.h"
@@ -13,8 +13,8 @@ layout(location = 15) in vec3 positionLS;
 layout(location = 0) out vec4 entering;
 layout(location = 1) out vec4 unspread;
 
-// Makes a surface one that reflects what enters it to all sides alike, without layers. enteredMaterial() of
-// renderer/frame/MaterialFeatures.cpp says the same of its material, by which code that this leaves unused is left out.
+// Makes a surface Lambertian, without layers. enteredMaterial() of renderer/frame/MaterialFeatures.cpp does the same to
+// its material, so that code which becomes unused is left out.
 void takeEnteredValues(inout Surface surface)
 {
     surface.model = MODEL_LAMBERT;

@@ -1,8 +1,8 @@
-// Spreads light along one direction of the atlas, by a Gaussian whose width is in metres on the surface. Weights are
-// those of the Gaussian times the length of a tap's step, over their sum: light that is the same everywhere stays so to
-// the last digits, and a stretched texture changes nothing. Charts end where the surface is known no further.
-// Interpolating between texels spreads light already, by a tent as wide as they are, here and along this axis: a level
-// adds what is missing of its Gaussian's variance.
+// Diffuses light along one axis of the atlas, by a Gaussian whose width is in metres on the surface. The weights are
+// the Gaussian times the length of a tap's step, normalised: uniform light stays uniform to the last digits, and a
+// stretched texture changes nothing. Taps end where the surface does not continue in the chart. Interpolation between
+// texels already diffuses light, by a tent as wide as the texels here and along this axis: a level adds only what its
+// Gaussian's variance lacks.
 #include "shared/slots.h"
 #include "shared/diffusion.h"
 
@@ -19,7 +19,7 @@ layout(location = 0) out vec4 spread;
 layout(location = 1) out vec4 sum;
 #endif
 
-// A place of the atlas: its light, and the length of its step; 0 where it is not of the chart.
+// A texel of the atlas: its light, and the length of its step; 0 outside the chart.
 struct Tap {
     vec3 light;
     float stepMetres;
@@ -36,7 +36,7 @@ Tap tapAt(ivec2 texel, float chart)
     return tap;
 }
 
-// Along v, rows lie askew where the texture does, so that a tap lies between two texels.
+// Along v, rows are sheared like the texture, so that a tap lies between two texels.
 Tap tapBeside(ivec2 texel, int offset, float shear, float chart)
 {
     if (constants.gaussian.y == 0.0) return tapAt(texel + ivec2(offset, 0), chart);
@@ -56,7 +56,7 @@ void main()
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 own = texelFetch(steps, at, 0);
 #if SUMS
-    // Outside of charts light is filled in again.
+    // Texels outside charts are filled again.
     if (own.w <= 0.0) discard;
 #else
     if (own.w == 0.0) discard;
@@ -64,7 +64,7 @@ void main()
     float chart = abs(own.w);
     Tap middle = tapAt(at, chart);
     float stepMetres = middle.stepMetres;
-    // Rows that lie askew show light along u too, as far as the square of that is a number.
+    // Sheared rows also diffuse light along u, as far as the square of the shear is finite.
     float askew = constants.gaussian.y == 0.0 ? min(abs(own.z), 1e6) : 0.0;
     precise float shown = constants.weight.w * (stepMetres * stepMetres) * (1.0 + askew * askew);
     float before = max(constants.gaussian.z, shown);

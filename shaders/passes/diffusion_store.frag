@@ -1,4 +1,4 @@
-// Stores the light that leaves an object in its cell of the view's atlas, filled where the surface goes on.
+// Stores the light leaving an object in its atlas cell; texels outside charts get it from where the surface continues.
 #include "passes/filled_light.glsl"
 
 layout(std140, binding = UNIFORM_PASS) uniform DiffusionStoreBlock
@@ -6,7 +6,7 @@ layout(std140, binding = UNIFORM_PASS) uniform DiffusionStoreBlock
     DiffusionStoreConstants constants;
 };
 
-// What leaves the surface: light that has not spread, and the sum of what has.
+// Light that leaves the surface: undiffused light, and the sum of diffused light.
 layout(binding = TEXTURE_UNIT_DIFFUSION_UNSPREAD) uniform sampler2D unspread;
 #if SUMS
 layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D sum;

@@ -1,5 +1,5 @@
-// Linear radiance to display code values: exposure, tone map, sRGB transfer function. DISPLAY_MAPPING is one of DISPLAY_*,
-// TONE_MAP one of TONEMAP_*: a rasteriser that masks lanes would run all of them.
+// Linear radiance to display code values: exposure, tone map, sRGB transfer function. DISPLAY_MAPPING is one of
+// DISPLAY_*, TONE_MAP one of TONEMAP_*; as defines, since a rasteriser that masks lanes would run all of them.
 #include "shared/slots.h"
 #include "shared/display.h"
 #include "shared/face_colors.h"
@@ -14,7 +14,7 @@ layout(std140, binding = UNIFORM_PASS) uniform DisplayBlock
 layout(binding = TEXTURE_UNIT_RADIANCE) uniform sampler2D radianceImage;
 layout(location = 0) out vec4 code;
 
-// Neighbouring numbers get colours far apart; 0 is black.
+// Neighbouring ids get very different colours; 0 is black.
 vec3 colorOfIds(vec3 value)
 {
     uvec3 ids = uvec3(value);
@@ -23,7 +23,7 @@ vec3 colorOfIds(vec3 value)
     return vec3(uvec3(mixed >> 24, mixed >> 16, mixed >> 8) & 255u) / 255.0;
 }
 
-// All of 0 to infinity. Source: Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", equation 3.
+// Compresses 0..infinity. Source: Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 3.
 vec3 compressed(vec3 value)
 {
     vec3 positive = max(value, 0.0);
@@ -38,7 +38,7 @@ vec3 faultsOf(vec3 value)
                                : faultColor(fault);
 }
 
-// Of a texel of the atlas as passes/shadow_atlas.frag writes it.
+// Colour of a texel of the atlas as written by passes/shadow_atlas.frag.
 vec3 atlasColor(vec4 value)
 {
     if (value.a == 0.0) return vec3(0.0);

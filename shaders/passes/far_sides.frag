@@ -1,4 +1,4 @@
-// The back faces of bodies of glass: the normal as it is lit, and the depth.
+// Back faces of bodies of glass: the shading normal and the depth.
 #include "lib/raster/rasterised.glsl"
 #include "lib/raster/coverage.glsl"
 

@@ -1,5 +1,5 @@
-// Light of an object's texels, and outside of charts, and where the rasteriser left a hole, that of the places where the
-// surface goes on. Who includes it defines lightAt(), whose alpha says whether there is any.
+// Light of an object's texels; outside charts, and where the rasteriser left a hole, the light from where the surface
+// continues. The including file defines lightAt(), whose alpha is 0 where there is no light.
 #pragma once
 #include "shared/slots.h"
 #include "shared/diffusion.h"
@@ -18,10 +18,10 @@ vec4 filledLightAt(ivec2 at)
     if (chart == 0.0) return filled;
     vec2 place = texelFetch(continued, at, 0).xy - 0.5;
     vec2 corner = floor(place);
-    // A hole takes from its own tile alone.
+    // A hole reads from its own tile only.
     if (chart > 0.0) corner -= vec2(equal(at % DIFFUSION_TILE_TEXELS, ivec2(DIFFUSION_TILE_TEXELS - 1)));
     vec2 share = place - corner;
-    // Of the four texels around it those in charts; at least the nearest one is near one.
+    // Bilinear over those of the four texels that lie in charts; a minimum weight, in case only a far one does.
     precise vec3 lit = vec3(0.0);
     precise float weights = 0.0;
     for (int i = 0; i < 4; ++i) {

@@ -10,7 +10,7 @@
 #include "lib/lighting/transmission.glsl"
 
 layout(location = 0, index = 0) out vec4 radiance;
-layout(location = 0, index = 1) out vec4 kept; // of what lies behind, by channel; read where the material transmits
+layout(location = 0, index = 1) out vec4 kept; // kept fraction of the background, by channel; for transmission
 #else
 layout(location = 0) out vec4 radiance;
 #endif
@@ -32,7 +32,7 @@ void main()
     kept = vec4(0.0);
 #if VIEW == VIEW_FINAL
     if (material.transmission.x > 0.0) {
-        // Along the ray of the pixel's centre: what is seen through a surface that bends nothing is this pixel's.
+        // Uses the pixel's central ray, so that a surface without refraction shows this pixel's background.
         Viewpoint middle = viewpointFromDepth(gl_FragCoord.xy, place.depth);
         ThroughSurface through = lightThrough(surface, middle, gl_FragCoord.xy);
         precise vec3 shown = coverage * (viewed + through.radiance);

@@ -1,5 +1,5 @@
-// A triangle that covers the window, from the vertex index alone. With FLAT_CONSTANTS it hands the constants of the view and of
-// its lights to the fragments.
+// A triangle that covers the window, by vertex index alone. With FLAT_CONSTANTS it outputs the constants of the view
+// and its lights to the fragments.
 #ifdef FLAT_CONSTANTS
 #undef FLAT_CONSTANTS
 #include "lib/surface/camera.glsl"

@@ -1,4 +1,4 @@
-// Stores the surface seen through each pixel.
+// Stores the visible surface of each pixel.
 #define GBUFFER_WRITE
 #include "lib/raster/rasterised.glsl"
 #include "lib/raster/spread_light.glsl"

@@ -1,4 +1,4 @@
-// The one vertex function: every rasterising pass uses it, so a surface has the same depth to the last bit in all of them.
+// The vertex shader of every rasterising pass, so that a surface has the same depth to the last bit in all of them.
 #include "shared/slots.h"
 #include "shared/diffusion.h"
 #include "shared/facet.h"
@@ -14,9 +14,9 @@ layout(location = ATTRIBUTE_TEXCOORD1) in vec2 inTexCoord1;
 layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
 layout(location = ATTRIBUTE_FACET_NORMAL) in vec3 facetNormalOS; // of the triangle whose last corner this is
 
-// Per draw: rows of RWS-from-object, and of the cofactors of LS-from-object times the sign of its determinant (xyz). w of
-// the first row is that sign, times 1 + spreadingNumber; of the second the largest of the mesh's vertex colours, 0 when
-// it has none; of the third 1 + the place of the mesh instance in the scene.
+// Per draw: rows of RWS-from-object, and of the cofactor matrix of LS-from-object times the sign of its determinant
+// (xyz). w of the first normal row: that sign, times 1 + spreadingNumber; of the second: the largest of the mesh's
+// vertex colours, 0 if it has none; of the third: 1 + the index of the mesh instance in the scene.
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0) in vec4 drawRow0;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 1) in vec4 drawRow1;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 2) in vec4 drawRow2;
@@ -55,7 +55,7 @@ layout(location = 9) flat out vec3 facetNormalLS;
 layout(location = 18) out float tangentPlane; // dot(normalLS, the vertex's position)
 #endif
 #if HAS_SHADOW_LIFT && !DEPTH_ONLY
-layout(location = 19) flat out float facetIsLifted; // 1 where shadows are asked for from above the triangle, else 0
+layout(location = 19) flat out float facetIsLifted; // 1 if shadow look-ups start above the triangle, else 0
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT && !DEPTH_ONLY
 layout(location = 11) flat out vec3 objectRow0;
@@ -80,7 +80,7 @@ layout(location = 9) flat out float drawnObject;
 #endif
 
 #if FILTER_EXACT || HAS_TANGENTS || IN_ATLAS || LIFTS
-// Turned by the transpose; exact where both are one space.
+// Rotates by the transpose; exact if both are the same space.
 vec3 lsFromRWS(vec3 directionRWS)
 {
     precise vec3 directionLS = directionRWS * mat3(view.worldFromLS);
@@ -93,7 +93,7 @@ void main()
     precise vec4 object = vec4(positionOS, 1.0);
     precise vec3 positionRWS = vec3(dot(drawRow0, object), dot(drawRow1, object), dot(drawRow2, object));
 #if IN_ATLAS
-    // Where its texture coordinates lie.
+    // At its texture coordinates.
     const float side = float(ATLAS_TEXELS);
     precise vec2 place = PLACE_IN_UV_ATLAS(inTexCoord0, float(ATLAS_BORDER), side) / side;
     gl_Position = vec4(place * 2.0 - 1.0, 0.5, 1.0);

@@ -1,4 +1,4 @@
-// What a scene's hook makes of surfaces at points that are given, for the reference renderer.
+// Applies a scene's surface hook at given points, for the reference renderer.
 #include "shared/slots.h"
 #include "lib/material/hook_interface.glsl"
 

@@ -1,4 +1,4 @@
-// Moves the vertices of a mesh as its scene's hook says. Every pass reads what it writes.
+// Moves the vertices of a mesh by its scene's hook. Every pass reads the result.
 #include "shared/slots.h"
 #include "lib/material/hook_interface.glsl"
 

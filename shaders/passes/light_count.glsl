@@ -1,4 +1,4 @@
-// Entry of lib/lists/list_count.glsl.
+// Entry point of lib/lists/list_count.glsl.
 #include "lib/lists/list_count.glsl"
 
 void main()

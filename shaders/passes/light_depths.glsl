@@ -1,4 +1,4 @@
-// Entry of lib/lists/list_depths.glsl.
+// Entry point of lib/lists/list_depths.glsl.
 #include "lib/lists/list_depths.glsl"
 
 void main()

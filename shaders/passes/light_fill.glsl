@@ -1,4 +1,4 @@
-// Entry of lib/lists/list_fill.glsl.
+// Entry point of lib/lists/list_fill.glsl.
 #include "lib/lists/list_fill.glsl"
 
 void main()

@@ -1,4 +1,4 @@
-// Entry of lib/lists/list_reach.glsl.
+// Entry point of lib/lists/list_reach.glsl.
 #include "lib/lists/list_reach.glsl"
 
 void main()

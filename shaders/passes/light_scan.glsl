@@ -1,4 +1,4 @@
-// Entry of lib/lists/list_scan.glsl.
+// Entry point of lib/lists/list_scan.glsl.
 #include "lib/lists/list_scan.glsl"
 
 void main()

@@ -1,4 +1,4 @@
-// Entry of lib/lists/list_fill.glsl, before its rounds.
+// Entry point of lib/lists/list_fill.glsl that counts cells before its rounds.
 #include "lib/lists/list_fill.glsl"
 
 void main()

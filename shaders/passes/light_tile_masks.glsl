@@ -1,4 +1,4 @@
-// Entry of lib/lists/list_masks.glsl.
+// Entry point of lib/lists/list_masks.glsl, for tiles.
 #include "lib/lists/list_masks.glsl"
 
 void main()

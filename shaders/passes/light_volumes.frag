@@ -1,4 +1,4 @@
-// What one light adds to the pixel, to be blended onto the others. Alpha stays: the pixel is covered already.
+// Light of one volume, blended additively onto the pixel. Alpha stays: the pixel is covered already.
 #include "shared/slots.h"
 #include "lib/gbuffer/gbuffer.glsl"
 #include "lib/lighting/views.glsl"

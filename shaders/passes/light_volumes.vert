@@ -1,4 +1,4 @@
-// One light an instance: the triangles of its volume.
+// One instance per light: the triangles of its volume.
 #include "lib/light/light_volume.glsl"
 
 layout(location = 0) flat out int light;

@@ -1,4 +1,4 @@
-// One value of a pixel's samples: the mean of radiance, summed in ascending order, or the largest of nearest and negated
+// Resolves a pixel's samples: the mean of radiance, summed in ascending order, or the maxima of nearest and negated
 // farthest depths.
 #include "shared/slots.h"
 

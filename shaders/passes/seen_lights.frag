@@ -1,4 +1,4 @@
-// The surface of an area light where the ray of the pixel, or of the sample, meets it: its radiance, and its depth.
+// Draws the surface of an area light: its radiance and depth where the ray of the pixel, or of the sample, meets it.
 #include "shared/slots.h"
 #include "shared/seen_lights.h"
 #include "shared/light_pictures.h"
@@ -19,7 +19,7 @@ vec2 cornerOf(int texel, int corner)
 #define HAS_CORNERS 1
 #include "lib/light/area_hits.glsl"
 
-// A rectangle, a disk or a polygon, from a side that shines.
+// Intersection with a rectangle, a disk or a polygon, from an emitting side.
 bool meetsFlat(Ray ray, int type, int texel, vec4 along, vec4 across, bool isTwoSided, out float ahead, out vec2 within)
 {
     within = vec2(0.0);
@@ -49,7 +49,7 @@ void main()
 
     vec2 spread = raySpread();
     precise vec3 acrossView = acrossOfPixel(pixel);
-    // Its points lie so many metres ahead of the origin of lighting space.
+    // A point of the ray at `ahead` lies `ahead` metres ahead of the origin of lighting space.
     precise vec3 start = spread.x * acrossView - middle.xyz;
     precise vec3 direction = spread.y * acrossView + view.forwardLS.xyz;
     Ray ray = Ray(start, direction);
@@ -65,8 +65,8 @@ void main()
     else
         meets = meetsFlat(ray, type, texel, along, across, shinesFromBothSides(shown.w), ahead, within);
     if (!meets) discard;
-    // Nothing is drawn before the near plane and behind the far one. A surface that is entered behind the eye is seen
-    // from inside, where it does not shine.
+    // Nothing is drawn in front of the near plane or behind the far plane. A surface that is entered behind the eye is
+    // seen from inside, where it emits nothing.
     float depth = depthFromAhead(ahead);
     if (!(depth >= 0.0 && depth <= 1.0)) discard;
     gl_FragDepth = depth;

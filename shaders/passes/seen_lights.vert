@@ -1,4 +1,4 @@
-// One light an instance: two triangles over the part of the picture that its surface may be seen in.
+// One instance per light: two triangles over the part of the image in which its surface may be visible.
 #include "shared/slots.h"
 #include "shared/seen_lights.h"
 

@@ -1,4 +1,4 @@
-// Shows a face of the shadow atlas (shared/shadow_maps.h).
+// Displays a face of the shadow atlas (shared/shadow_maps.h).
 #include "shared/slots.h"
 #include "shared/shadow_maps.h"
 
@@ -9,7 +9,7 @@ layout(std140, binding = UNIFORM_PASS) uniform ShownFaceBlock
 layout(binding = TEXTURE_UNIT_SHADOWS) uniform sampler2D shadowAtlas;
 layout(location = 0) out vec4 radiance;
 
-// A rim hides no face that is narrower.
+// Faces narrower than this, in pixels, get no rim, which would hide them.
 const float kNarrowestRimmed = 8.0;
 
 ivec2 texelAt(vec2 pixel)
@@ -30,7 +30,7 @@ bool isAtRim(vec2 pixel)
            !(isInFace(texelAt(pixel - 1.0)) && isInFace(texelAt(pixel + 1.0)));
 }
 
-// From 1 at the light to 1/4 where it ends; 0 where there is no caster.
+// From 1 at the light to 1/4 at its range; 0 without a caster.
 float nearness(float depth)
 {
     if (depth == 0.0) return 0.0;

@@ -1,5 +1,5 @@
-// Shows a channel of the G-buffer as it is stored: the components of a channel in fp32 (STORED_PACKED 0), or the fields of a
-// packed one, each as a share of its largest code; fp32 tells all codes apart. Fields that a channel lacks are 0.
+// Displays a channel of the G-buffer as stored: the components of an fp32 channel (STORED_PACKED 0), or the fields of a
+// packed one, each relative to its largest code; fp32 distinguishes all codes. Fields that a channel lacks are 0.
 #include "lib/gbuffer/gbuffer.glsl"
 
 layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D depthChannel;

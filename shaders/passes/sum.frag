@@ -1,4 +1,4 @@
-// The sum of two pictures of linear radiance.
+// The sum of two images of linear radiance.
 #include "shared/slots.h"
 
 layout(binding = TEXTURE_UNIT_RADIANCE) uniform sampler2D radianceImageA;

@@ -1,4 +1,4 @@
-// Nearest depth at which a transparent surface is lit, and farthest negated; the target keeps the larger of each.
+// Nearest shading depth of transparent surfaces, and the farthest negated; the target keeps the maximum of each.
 #include "lib/raster/shading_place.glsl"
 
 layout(location = 0) out vec2 depths;

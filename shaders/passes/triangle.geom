@@ -1,4 +1,4 @@
-// Hands every fragment its whole triangle, for --filter exact (lib/surface/triangle.glsl); the rest goes through as it is.
+// Outputs the whole triangle to every fragment, for --filter exact (lib/surface/triangle.glsl); copies other outputs.
 #include "shared/slots.h"
 #include "shared/hook.h"
 #include "shared/views.h"

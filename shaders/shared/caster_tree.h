@@ -1,18 +1,15 @@
 #pragma once
-// What hides lights from surfaces: the triangles of all casters in a bounding volume hierarchy, as RGBA32UI texels of a
-// buffer texture. Casters' space (CS) has the axes of the world, its origin at the median of the corners on each axis,
-// and about their distance from it as its unit, so that fp32 keeps the digits of positions, and the squares of their
-// differences, at any size.
+// Bounding volume hierarchy over the triangles of all shadow casters, as RGBA32UI texels of a buffer texture. Caster
+// space (CS) has the world's axes, its origin at the per-axis median of the vertices, and about their distance from it
+// as its unit, so that fp32 represents positions and squared differences at any scene scale.
 //
-//   nodes      CASTER_NODE_TEXELS each, in the order of a walk that goes down first. Texel 0: xyz of the box's low
-//              corner; w the node to go on with where the box is missed. Texel 1: xyz of its high corner; w 0, or in
-//              a leaf packCasterLeaf()
-//   triangles  three corners, xyz each; the first one's w is the triangle's mark, CASTER_PASSED and CASTER_MIRRORED.
-//              Where the material has a mask, each w is the opacity that its factor and the vertex colour give, and
-//              two texels follow: the coordinates of the first two corners; those of the third, the first texel of
-//              the mask, and the mark
-//   masks      one texel: the first texel of opacities, width and height in texels, CASTER_MASK_*; one more: x the
-//              cutoff as a float; then the opacities as floats, four a texel, row after row
+//   nodes      CASTER_NODE_TEXELS each, in depth-first order. Texel 0: xyz low corner of the box; w next node if the
+//              box is missed. Texel 1: xyz high corner; w 0, or packCasterLeaf() in a leaf
+//   triangles  three corners, xyz each; w of the first: flag bits, CASTER_PASSED and CASTER_MIRRORED. If the material
+//              has a mask, each w is the opacity by material factor and vertex colour, and two texels follow: texture
+//              coordinates of the first two corners; those of the third, first texel of the mask, and the flag bits
+//   masks      one texel: first texel of the opacities, width and height in texels, CASTER_MASK_*; one more: x the
+//              cutoff as a float; then the opacities as floats, four per texel, row by row
 #include "interop.h"
 
 #define CASTER_NODE_TEXELS 2u
@@ -20,16 +17,16 @@
 #define CASTER_MASKED_TRIANGLE_TEXELS 5u
 #define CASTER_MASK_TEXELS 2u
 
-// Of a mark: the row of SubsurfaceConstants that lets light through the material, 0 for none; that the corners run
-// clockwise as seen from the front.
+// Flag bits: row of SubsurfaceConstants if the material transmits light, else 0; whether the corners wind clockwise as
+// seen from the front.
 #define CASTER_PASSED 255u
 #define CASTER_MIRRORED 256u
 
-// Triangles of a leaf at most.
+// Maximum number of triangles per leaf.
 #define CASTER_LEAF_MOST 4u
 #define CASTER_LEAF_TEXEL_BITS 29
 
-// How a mask's texels are read: scenes::Wrap of u and v, and whether the nearest one is taken.
+// Sampling of a mask: scenes::Wrap of u and v; whether the filter is nearest.
 #define CASTER_MASK_WRAP_U_SHIFT 0u
 #define CASTER_MASK_WRAP_V_SHIFT 2u
 #define CASTER_MASK_NEAREST 16u
@@ -38,7 +35,7 @@
 
 SHARED_BEGIN
 
-// What a leaf holds: 1 to CASTER_LEAF_MOST triangles from a texel on, all of them with masks or none.
+// A packed leaf: 1 to CASTER_LEAF_MOST triangles from `firstTexel` on, all with masks or none.
 SHARED_FUNCTION uint packCasterLeaf(uint firstTexel, uint triangles, bool isMasked) {
     return (firstTexel << (32 - CASTER_LEAF_TEXEL_BITS)) | (isMasked ? 4u : 0u) | (triangles - 1u);
 }
@@ -53,11 +50,11 @@ SHARED_FUNCTION bool isCasterLeafMasked(uint leaf) {
 }
 
 struct CasterTreeConstants {
-    vec4 rwsOriginCS; // xyz the origin of lighting space (frame.h) in casters' space; w that space's units in a metre
-    vec4
-        rounding; // x metres, y share of the distance from that origin: by how much fp32 may move a surface or a light
-                  // against the casters; z the radius around the origin of casters' space that holds them, in its units
-    uvec4 size;   // x number of nodes
+    vec4 rwsOriginCS; // xyz origin of lighting space (frame.h) in caster space; w caster-space units per metre
+    vec4 rounding; // fp32 position error of surfaces and lights relative to the casters: x constant, in metres, y per
+                   // metre of distance from the origin of lighting space; z bounding radius of the casters around the
+                   // origin of caster space, in its units
+    uvec4 size;    // x number of nodes
 };
 
 SHARED_END

@@ -7,7 +7,7 @@
 #define TONEMAP_ACES 2u
 #define TONEMAP_AGX 3u
 
-// How the values of a view are shown (frame::DisplayMapping).
+// Mapping from a view's values to display colours (frame::DisplayMapping).
 #define DISPLAY_RADIANCE 0
 #define DISPLAY_RAW 1
 #define DISPLAY_SIGNED 2
@@ -22,7 +22,7 @@ SHARED_BEGIN
 
 struct DisplayConstants {
     vec4 exposure; // x factor 2^EV
-    vec4 scales;   // x end of the scale of counts, as a power of two
+    vec4 scales;   // x log2 of the end of the count scale
 };
 
 SHARED_END

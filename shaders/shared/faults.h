@@ -1,5 +1,5 @@
 #pragma once
-// Values that no radiance may have, and how they are painted; for C++ and GLSL alike.
+// Invalid radiance values and their display colours, for C++ and GLSL.
 #include "interop.h"
 
 #define FAULT_NONE 0
@@ -9,7 +9,7 @@
 
 SHARED_BEGIN
 
-// What is wrong with a component, from its bits, since compilers may assume that no comparison meets NaN.
+// Classifies a component by its bits, since compilers may assume that comparisons never see NaN.
 SHARED_FUNCTION int faultOfBits(uint bits) {
     uint magnitude = bits & 0x7FFFFFFFu;
     if (magnitude > 0x7F800000u) return FAULT_NAN;
@@ -17,7 +17,7 @@ SHARED_FUNCTION int faultOfBits(uint bits) {
     return bits > 0x80000000u ? FAULT_NEGATIVE : FAULT_NONE; // -0 is no fault
 }
 
-// As sRGB code values 0..1: strong colours, of which grey has none.
+// Colour of a fault as sRGB code values 0..1: strong colours, none grey.
 SHARED_FUNCTION vec3 faultColor(int fault) {
     if (fault == FAULT_NAN) return vec3(1.0f, 0.0f, 1.0f);
     return fault == FAULT_INFINITE ? vec3(0.0f, 1.0f, 1.0f) : vec3(1.0f, 1.0f, 0.0f);

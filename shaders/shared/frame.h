@@ -1,11 +1,10 @@
 #pragma once
-// The constants of a view, which is a camera with a picture of some size, and of its lights. Positions
-// are in lighting space (LS). Lighting space has the axes of the world or of the view, as FrameSettings::space says,
-// and its origin on the view axis: at the eye, or in the middle of the visible surfaces where all of them are far away,
-// so that fp32 keeps the digits of positions. The CPU transforms normals, lights and rays to it in double precision,
-// and shaders do not depend on its axes. Vertices pass through relative world space (RWS), the world's axes at that
-// origin, with either lighting space: rounding in another space would move them by a bit, and pixels at edges would
-// show another triangle.
+// Constants of a view (a camera with an image size) and of its lights. Positions are in lighting space (LS). Lighting
+// space has world or view axes, by FrameSettings::space; its origin lies on the view axis: at the eye, or in the middle
+// of the visible surfaces if all are far away, so that fp32 positions keep their precision. The CPU transforms normals,
+// lights and rays to it in double precision, and shaders do not depend on its axes. Vertices always pass through
+// relative world space (RWS), world axes at that origin: rounding in another space would move them by a bit, and pixels
+// at edges would show another triangle.
 #include "interop.h"
 
 SHARED_BEGIN
@@ -13,33 +12,34 @@ SHARED_BEGIN
 struct ViewConstants {
     mat4 clipFromLS;
     mat4 clipFromRWS;
-    mat4 worldFromLS;    // rotation only, of world axes, so also RWS from LS; the unit matrix where LS is RWS
-    vec4 eyeLS;          // xyz the eye; w the view depth of the origin of lighting space, in metres
-    vec4 rayDxLS;        // step of one pixel to the right across the view axis, in metres: a metre ahead of the eye, or
-                         // (orthographic) anywhere
+    mat4 worldFromLS;    // rotation only, so also RWS from LS; the identity if LS is RWS
+    vec4 eyeLS;          // xyz eye; w view depth of the origin of lighting space, in metres
+    vec4 rayDxLS;        // step of one pixel to the right across the view axis, in metres: at one metre ahead of the
+                         // eye (orthographic: at any depth)
     vec4 rayDyLS;        // the same upwards
     vec4 forwardLS;      // unit; w is 1 for an orthographic camera, else 0
     vec4 aheadFromDepth; // metres ahead of the origin of lighting space = (x + y depth) / (z + w depth)
     vec4 background;     // radiance where nothing is drawn; a is 0, the coverage
-    vec4 rayFromPixel;   // a pixel p sees x (p.x - z) to the right and y (p.y - w) up, in metres: a metre ahead of the
-                         // eye, or (orthographic) anywhere; window coordinates, lower-left origin
-    vec4 depthKey;       // x bias of depth keys (light_lists.h); y metres from depth 0 to 1 where depth is even in the
-                         // distance or nearly so, else 0; w by how much of a pixel a rasteriser moves vertices before
-                         // it finds depths, z the same in metres: a metre ahead of the eye, or (orthographic) anywhere
-    uvec4 sizePixels;    // x width, y height of the picture; z samples of a pixel, 0 where nobody has said
+    vec4 rayFromPixel;   // the ray of pixel p lies x (p.x - z) to the right and y (p.y - w) up, in metres, at one metre
+                         // ahead of the eye (orthographic: at any depth); window coordinates, lower-left origin
+    vec4 depthKey;       // x bias of depth keys (light_lists.h); y metres from depth 0 to 1 if depth is (nearly) linear
+                         // in the distance, else 0; w fraction of a pixel by which the rasteriser snaps vertices before
+                         // it computes depths, z the same in metres, at one metre ahead of the eye (orthographic: at
+                         // any depth)
+    uvec4 sizePixels;    // x width, y height of the image; z samples per pixel, 0 if unset
 };
 
-// vec4 that the structs take. passes/fullscreen.vert hands all of them to the fragments where the driver is one of
-// Mesa's software rasterisers, which let a vertex shader write 32; OpenGL 4.5 guarantees 16.
+// Rows (vec4) of the structs. On Mesa's software rasterisers passes/fullscreen.vert outputs all of them to the fragment
+// shader: their vertex shaders may have 32 outputs; OpenGL 4.5 guarantees 16.
 #define VIEW_CONSTANT_ROWS 21
 #define LIGHTING_CONSTANT_ROWS 3
 
 struct LightingConstants {
-    uvec4 lights;   // x number of lights, y index of the one that views of one light show, z those that reach
-                    // everywhere, w words of a bitmask over the lights
-    uvec4 tileGrid; // x columns, y rows of tiles; z height of the picture in pixels; w log2 of a tile's side in pixels
-    uvec4 slices; // x shift of the finest depth slices (light_lists.h); y number of lights that casters may hide, which
-                  // come first
+    uvec4 lights;   // x number of lights, y light shown by views of a single light, z number of unbounded lights, w
+                    // words of a bitmask over the lights
+    uvec4 tileGrid; // x columns, y rows of tiles; z height of the image in pixels; w log2 of a tile's side in pixels
+    uvec4 slices;   // x shift of the finest depth slices (light_lists.h); y number of shadow-casting lights, which come
+                    // first
 };
 
 #ifdef __cplusplus

@@ -1,8 +1,8 @@
 #pragma once
-// Colours of heat maps, for C++ and GLSL alike.
+// Colours of heat maps, for C++ and GLSL.
 #include "interop.h"
 
-// The end of the scale of counts if the largest count is unknown, as a power of two: of lights, and of surfaces.
+// log2 of the scale's end if the largest count is unknown: of lights, and of surfaces.
 #define HEAT_LIGHTS_LOG2 9
 #define HEAT_SURFACES_LOG2 4
 
@@ -23,8 +23,8 @@ SHARED_FUNCTION vec3 heatAnchor(int step) {
     return code / 255.0f;
 }
 
-// Colour at 0..1 (clamped) as sRGB code values: black, violet, red, orange, pale yellow, lightness rising throughout;
-// straight lines between the steps.
+// Colour at 0..1 (clamped) as sRGB code values: black, violet, red, orange, pale yellow, with increasing lightness;
+// linear between the steps.
 SHARED_FUNCTION vec3 heatColor(float position) {
     float steps = min(max(position, 0.0f), 1.0f) * 9.0f;
     int lower = min(int(steps), 8);
@@ -32,12 +32,12 @@ SHARED_FUNCTION vec3 heatColor(float position) {
     return heatAnchor(lower) * (1.0f - share) + heatAnchor(lower + 1) * share;
 }
 
-// Where a count lies on the scale: 0 at none, every doubling of 1 + count as far again, 1 at 2^log2Most - 1.
+// Position of a count on the logarithmic scale of 1 + count: 0 for none, 1 for 2^log2Most - 1.
 SHARED_FUNCTION float heatPositionOfCount(float count, float log2Most) {
     return log2(1.0f + max(count, 0.0f)) / log2Most;
 }
 
-// The end of the scale, as a power of two, where the largest count is known: it tells at least 0 to 7 apart.
+// log2 of the scale's end for a known largest count; the scale covers at least 0 to 7.
 SHARED_FUNCTION float heatScaleLog2(float most) {
     return log2(1.0f + max(most, 7.0f));
 }

@@ -1,33 +1,33 @@
 #pragma once
-// A scene's own GLSL that changes its surfaces and moves its vertices (docs/hooks.md). It is put behind the programs
-// that call it (renderer/shader/Preprocess.cpp), so that nothing in it changes what stands before: hookSurface() behind
-// fragment shaders that shade surfaces, and behind a compute shader for the reference renderer; hookVertex() behind
-// another compute shader, which every pass depends on.
+// GLSL hooks of a scene, which modify its surfaces and vertices (docs/hooks.md). A hook is appended to the programs
+// that call it (renderer/shader/Preprocess.cpp), so that it cannot affect the code before it: hookSurface() to fragment
+// shaders that shade surfaces, and to a compute shader for the reference renderer; hookVertex() to another compute
+// shader, which every pass depends on.
 #include "interop.h"
 
 #define HOOK_PARAMETERS_MOST 15
 
-// Iterations of all loops of a hook that an invocation makes; then each of them ends.
+// Maximum iterations of all loops of a hook per invocation; loops are truncated after that.
 #define HOOK_ITERATIONS_MOST 60000
 
-// Invocations of a group of the compute shaders.
+// Workgroup size of the compute shaders.
 #define HOOK_GROUP 64
 
-// Opacities of vertices that a debug view marks: moved farther than the hook may move them; moved nowhere, to NaN or
-// beyond 1000 km, or with a normal of NaN.
+// Opacities that flag vertices for a debug view: moved farther than the hook may move them; moved to an invalid
+// position (NaN or beyond 1000 km) or with a NaN normal.
 #define HOOK_MARK_TOO_FAR 2.0
 #define HOOK_MARK_NOWHERE 3.0
 
 SHARED_BEGIN
 
-// The block that a hook reads as `hook`: number 0 is timeSeconds, the parameters follow.
+// Uniform block `hook`: number 0 is timeSeconds, the parameters follow.
 struct HookConstants {
     vec4 numbers[(HOOK_PARAMETERS_MOST + 1) / 4];
 };
 
-// What the compute shaders read and write: storage blocks of such rows, without gaps in std430 as in C++.
+// Rows of the compute shaders' storage blocks, without padding in std430 as in C++.
 
-// Of passes/hook_vertices.comp: 32 bytes a vertex in, 28 out.
+// passes/hook_vertices.comp: 32 bytes per vertex in, 28 out.
 struct HookVertexRow {
     float positionOS[3];
     float normalOS[3];
@@ -35,20 +35,20 @@ struct HookVertexRow {
 };
 struct HookMovedRow {
     float positionOS[3];
-    float normalOS[3]; // of any length
-    int isCut;         // hookVertex() takes more than HOOK_ITERATIONS_MOST, or than the driver makes
+    float normalOS[3]; // any length
+    int isCut;         // loops of hookVertex() exceeded HOOK_ITERATIONS_MOST or the driver's limit
 };
 
-// Of passes/hook_surfaces.comp: 60 bytes a point in, 36 out.
+// passes/hook_surfaces.comp: 60 bytes per point in, 36 out.
 struct HookSurfaceRow {
     float color[3];
     float emission[3];
     float alpha;
     float metallic;
-    int isCut; // as HookMovedRow's; 0 where it comes in
+    int isCut; // as in HookMovedRow; 0 on input
 };
 struct HookPointRow {
-    HookSurfaceRow surface; // as the material has it
+    HookSurfaceRow surface; // from the material
     float uv[2];
     float positionOS[3];
     int instance;

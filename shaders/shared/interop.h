@@ -1,8 +1,8 @@
 #pragma once
-// Lets one file declare a struct, or define a function, for C++ and GLSL alike. Such structs hold only vec4, uvec4,
-// mat4 and arrays of them, whose std140, std430 and C++ layouts are the same; the gpu tests compare the offsets with
-// what the driver reports. Those of storage blocks alone may hold plain numbers and arrays of them. Shared functions
-// take and return such values, mat3 and plain numbers.
+// Macros for structs and functions shared by C++ and GLSL. Shared structs hold only vec4, uvec4, mat4 and arrays of
+// them, whose std140, std430 and C++ layouts agree; the gpu tests compare the offsets with those the driver reports.
+// Structs used in storage blocks only may also hold scalars and arrays of scalars. Shared functions also take and
+// return vectors, mat3 and scalars.
 #ifdef __cplusplus
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -34,7 +34,7 @@ using uint = std::uint32_t;
 #define SHARED_END }
 #define SHARED_CONST inline constexpr int
 #if defined(__GNUC__)
-#define SHARED_FUNCTION inline __attribute__((always_inline)) // compilers do not see how often they are called
+#define SHARED_FUNCTION inline __attribute__((always_inline)) // compilers cannot know how often they are called
 #else
 #define SHARED_FUNCTION inline
 #endif

@@ -1,32 +1,31 @@
 #pragma once
-// Light lists: which lights a pixel visits. Every culling method builds this one structure, and the light cursor
-// (lib/light/light_cursor.glsl) reads it. The picture is divided into square tiles, tile (0, 0) at its top left; a
-// tile's depth range into at most 64 slices, of which those that hold a surface have a cell each; a cell names a run of
-// entries. A tile of a method with one list a tile names it itself.
+// Light lists: the lights that a pixel visits. Every culling method builds this structure, and the light cursor
+// (lib/light/light_cursor.glsl) reads it. The image is divided into square tiles, tile (0, 0) at the top left, and a
+// tile's depth range into at most 64 slices. Each slice that holds a surface has a cell, and a cell refers to a run of
+// entries. With methods of one list per tile, the tile itself refers to the run.
 //
 //   tiles    a LightTile each: first all tiles for opaque surfaces, then all tiles for transparent ones; a storage
 //            block, and in deferred lighting a buffer texture RG32UI, where a tile of one list takes one fetch
 //   cells    storage block, uvec2 each: x index of the first entry, y number of entries
 //            (zbin: x first word with a bit, y one past the last)
-//   entries  buffer texture R32UI, indices of lights in ascending order; before all runs those of the lights that reach
-//            everywhere
+//   entries  buffer texture R32UI, light indices in ascending order; the unbounded lights come before all runs
 //
-// zbin keeps bitmasks over the lights instead of runs: a tile names its own mask among the entries, all tiles share one
-// division of depth into bins, cell b is bin b's, whose mask follows the one before it from entry 0 on, and a light is
-// visited where both masks have its bit.
+// zbin stores bitmasks over the lights instead of runs: a tile refers to its mask among the entries; all tiles share
+// the depth bins; cell b belongs to bin b, whose mask follows that of bin b - 1, from entry 0 on. A light is visited if
+// both masks have its bit.
 #include "interop.h"
 
 #define LIGHT_LAYER_OPAQUE 0
 #define LIGHT_LAYER_TRANSPARENT 1
 
-// Texels of RG32UI that a LightTile is.
+// RG32UI texels per LightTile.
 #define LIGHT_TILE_TEXELS 2
 
-// Most depth slices of a tile: its bits fit a LightTile. Most depth bins of a frame.
+// Maximum depth slices per tile, whose bits fit a LightTile. Maximum depth bins per frame.
 #define LIGHT_TILE_SLICES 64u
 #define ZBIN_COUNT 256u
 
-// Lights per loop iteration of a shader that builds masks (lib/lists/list_masks.glsl spells out as many).
+// Lights per loop iteration of a shader that builds masks (unrolled in lib/lists/list_masks.glsl).
 #define MASK_LIGHTS_AN_ITERATION 8u
 
 // The slicing of a tile with one cell: every depth lies in slice 0.
@@ -34,11 +33,11 @@
 
 SHARED_BEGIN
 
-// A surface's depth key, floatBitsToUint(bias + depth), grows towards the viewer. Its high bits slice depth evenly in
-// the logarithm of the distance where bias + depth is proportional to 1/distance, and evenly in the distance where
-// depth is even, or nearly so, and the bias 1. No logarithm is taken, so CPU and GPU agree on every bit.
+// A surface's depth key, floatBitsToUint(bias + depth), grows towards the viewer. Its high bits slice depth
+// logarithmically where bias + depth is proportional to 1/distance, and linearly where depth is (nearly) linear and the
+// bias is 1. No logarithm is computed, so CPU and GPU agree on every bit.
 
-// A tile's slices: slice 0 begins at `first`, a multiple of 2^shift, and a slice is 2^shift keys deep. Packed in one
+// A tile's slices: slice 0 begins at `first`, a multiple of 2^shift, and a slice is 2^shift keys deep. Both fit one
 // word, since shift needs 5 bits and is at least 5.
 SHARED_FUNCTION uint packSlices(uint first, uint shift) {
     return first | shift;
@@ -50,7 +49,7 @@ SHARED_FUNCTION uint sliceOfKey(uint key, uint slices) {
     return (key - firstKeyOfSlices(slices)) >> (slices & 31u);
 }
 
-// The depths that slices first..last lie between: x the farthest, y the nearest. `bias` is ViewConstants::depthKey's.
+// Depth range of slices first..last: x farthest, y nearest. `bias`: ViewConstants::depthKey.x.
 SHARED_FUNCTION vec2 depthsOfSlices(uint slices, uint first, uint last, float bias) {
     uint shift = slices & 31u;
     uint begin = firstKeyOfSlices(slices) + (first << shift);
@@ -59,7 +58,7 @@ SHARED_FUNCTION vec2 depthsOfSlices(uint slices, uint first, uint last, float bi
     return depths;
 }
 
-// The slicing of keys low..high into fewer than `most` + 1 slices, none finer than 2^finestShift keys.
+// Slicing of keys low..high into at most `most` slices, none finer than 2^finestShift keys.
 SHARED_FUNCTION uint slicingOf(uint low, uint high, uint finestShift, uint most) {
     uint shift = finestShift;
     while ((high >> shift) - (low >> shift) >= most) ++shift;
@@ -68,7 +67,7 @@ SHARED_FUNCTION uint slicingOf(uint low, uint high, uint finestShift, uint most)
 
 struct LightTile {
     uvec4 words; // x first cell (zbin: first word of the mask); y packSlices(); z, w bits 0 to 31, 32 to 63: occupied
-                 // slices, or where every tile has one list what its cell says
+                 // slices, or with one list per tile the contents of its cell
 };
 
 SHARED_END

@@ -1,7 +1,7 @@
 #pragma once
-// What LightVolumesPass draws of each light (lib/light/light_volume.glsl): triangles by vertex number alone.
+// Vertex counts of the volumes that LightVolumesPass draws (lib/light/light_volume.glsl), by vertex number alone.
 
-// Corners of the outlines that stand in for circles: an octagon around a circle has 1.055 times its area.
+// Corners of the polygons that enclose circles: an octagon around a circle has 1.055 times its area.
 #define LIGHT_VOLUME_SIDES 8
 
 // A fan: the outline of a sphere.

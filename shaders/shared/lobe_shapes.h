@@ -1,27 +1,26 @@
 #pragma once
-// The table of the shapes of lobes under area lights (renderer/frame/LobeShapes.h): linearly transformed cosines.
-// Source: Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines".
+// Table of specular lobes as linearly transformed cosines, for area lights (renderer/frame/LobeShapes.h).
 #include "interop.h"
 
-// By the viewer's cosine (to the right) and by alpha (upwards), each at the square of its place, as LOBE_TABLE_SIDE.
-// The first rows hold the smallest alpha, the first column the smallest cosine.
+// Columns: the viewer's cosine; rows: alpha; each is the square of its position, as in LOBE_TABLE_SIDE. The first row
+// holds the smallest alpha, the first column the smallest cosine.
 #define LOBE_SHAPES_SIDE 32
 #define LOBE_SHAPES_SMALLEST_ALPHA 1e-3f
 #define LOBE_SHAPES_SMALLEST_COSINE 1e-4f
 
 SHARED_BEGIN
 
-// The matrix that takes directions of light to a clamped cosine around z, whose density there is the lobe's shape: of a
-// unit direction w it is |det| / |m w|^3 times max(z, 0) / pi of m w / |m w|. Scaling the matrix changes nothing. Axes:
-// z is the normal, x the viewer's projection on the surface, so that the viewer is (sineView, 0, cosView) and a mirror
-// sends its light to (-sineView, 0, cosView).
+// Inverse matrix m of a linearly transformed cosine: takes the lobe's light directions to a clamped cosine around z.
+// The lobe's density in a unit direction w is |det| / |m w|^3 times max(z, 0) / pi of m w / |m w|. Scaling m changes
+// nothing. Axes: z is the normal, x the viewer's projection on the surface, so that the viewer is (sineView, 0,
+// cosView) and a mirror reflects its light to (-sineView, 0, cosView).
 //
-// The numbers of the table are those of this product, divided by what they do where alpha is small:
+// The table holds p, q, s and r of this product; their factors in it are their behaviour for small alpha:
 //     | width p                  alpha sine q       |   | cosine   0   sine   |
 //     |             1                               | x |    0     1     0    |
 //     | alpha sine r             alpha width s      |   | -sine    0   cosine |
-// The right one turns the mirror's direction to z. width is Smith's sqrt(alpha^2 + (1 - alpha^2) cosine^2): a narrow
-// lobe is as many times narrower across than along the plane of the viewer. There p is 1 and s is 2.
+// The right matrix turns the mirror direction to z. width is Smith's sqrt(alpha^2 + (1 - alpha^2) cosine^2): for small
+// alpha, a lobe is narrower by this factor across the viewer's plane than along it; there p is 1 and s is 2.
 SHARED_FUNCTION mat3 inverseOfShape(vec4 numbers, float alpha, float cosView, float sineView) {
     SHARED_PRECISE float slant = alpha * sineView;
     SHARED_PRECISE float width = sqrt(slant * slant + cosView * cosView);
@@ -34,7 +33,7 @@ SHARED_FUNCTION mat3 inverseOfShape(vec4 numbers, float alpha, float cosView, fl
     return mat3(x, vec3(0.0f, 1.0f, 0.0f), z);
 }
 
-// The share of a shape that lies above the surface. A lobe is its shape above the surface, divided by this.
+// Fraction of a transformed cosine above the surface. A lobe is the part above the surface, divided by this.
 SHARED_FUNCTION float shareAbove(mat3 inverse) {
     // The surface's plane cuts the cosine's hemisphere into two lunes; the projected area of one is (1 + n.z) / 2, n
     // the normal of the plane.
@@ -43,9 +42,9 @@ SHARED_FUNCTION float shareAbove(mat3 inverse) {
     return 0.5f + 0.5f * cosine;
 }
 
-// The inverse of a shape whose facets' slopes have another alpha across the plane of the viewer than along it. `along`
-// is of slopes with the alpha along that plane; slopes across it are as many times narrower as `narrower` says, after
-// `lean` times those along it are taken off.
+// Inverse matrix of a lobe whose alpha across the viewer's plane differs from that along it. `along`: the matrix for
+// the alpha along that plane. Slopes across it have `lean` times those along it subtracted, and are then narrower by
+// the factor `narrower`.
 SHARED_FUNCTION mat3 stretchedAcross(mat3 along, float narrower, float lean) {
     mat3 stretched = along;
     for (int i = 0; i < 3; ++i) {

@@ -1,8 +1,8 @@
 #pragma once
-// Directions of stored normals, for C++ and GLSL. Theirs is the direction alone: who shades makes them unit vectors.
+// Decoding of stored normals for C++ and GLSL. The results are directions of any length; shading code normalises them.
 #include "interop.h"
 
-// Steps of a component from none to all of the largest one: fp32 holds each exactly.
+// Steps of a component relative to the largest one; fp32 holds each exactly.
 #define NORMAL_SHARE_BITS 25
 #define NORMAL_AXIS_BITS 3
 #define NORMAL_SHARE_STEPS 16777215.0f
@@ -10,7 +10,7 @@
 
 SHARED_BEGIN
 
-// Of a NormalCode (lib/maths/normal_code.glsl), NORMAL_SHARE_STEPS long along its largest component.
+// Direction of a NormalCode (lib/maths/normal_code.glsl); its largest component is +-NORMAL_SHARE_STEPS.
 SHARED_FUNCTION vec3 directionOfShares(uvec2 shares, uint axis) {
     float first = float(int(shares.x) - NORMAL_NO_SHARE);
     float second = float(int(shares.y) - NORMAL_NO_SHARE);
@@ -23,8 +23,8 @@ SHARED_FUNCTION vec3 directionOfShares(uvec2 shares, uint axis) {
                 largest == 2u ? along : second);
 }
 
-// Of a point on the octahedral square -1..1, on the octahedron. Source: Cigolle et al. 2014, "A Survey of Efficient
-// Representations for Independent Unit Vectors".
+// Point on the octahedron for a point of the octahedral square -1..1. Source: Cigolle et al. 2014, "A Survey of
+// Efficient Representations for Independent Unit Vectors".
 SHARED_FUNCTION vec3 directionOfOctahedral(vec2 p) {
     SHARED_PRECISE float z = 1.0f - abs(p.x) - abs(p.y);
     SHARED_PRECISE float x = z < 0.0f ? (p.x >= 0.0f ? 1.0f - abs(p.y) : abs(p.y) - 1.0f) : p.x;
@@ -32,7 +32,7 @@ SHARED_FUNCTION vec3 directionOfOctahedral(vec2 p) {
     return vec3(x, y, z);
 }
 
-// -1..1 in equal steps, 0 and both ends exactly; of `width` bits.
+// Decodes `width` bits to -1..1 in equal steps; 0 and both ends are exact.
 SHARED_FUNCTION float decodeSigned(uint code, int width) {
     int middle = int((1u << width) - 1u) / 2;
     SHARED_PRECISE float x = float(int(code) - middle) / float(middle);

@@ -1,4 +1,4 @@
 #pragma once
-// The share of an environment's light that arrives at a surface (encodeOpen() of lib/surface/surface.glsl).
+// Bits that store the fraction of environment light that reaches a surface (encodeOpen() of lib/surface/surface.glsl).
 
 #define OPEN_BITS 8

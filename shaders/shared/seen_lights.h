@@ -1,5 +1,5 @@
 #pragma once
-// The surfaces of area lights as pictures show them (passes/SeenLightsPass.h): a record each, in a buffer texture.
+// Records of the visible surfaces of area lights (passes/SeenLightsPass.h), in a buffer texture.
 #include "interop.h"
 
 #define SEEN_LIGHT_TEXELS 9
@@ -7,15 +7,15 @@
 SHARED_BEGIN
 
 struct SeenLightTexels {
-    vec4 window;     // around its picture, in normalised device coordinates: xy the least, zw the most
-    vec4 radiance;   // rgb colour x intensity; w of a flat light the sides it is seen from, and its picture
+    vec4 window;     // screen bounds in normalised device coordinates: xy minimum, zw maximum
+    vec4 radiance;   // rgb colour x intensity; w of a flat light its emitting sides and light texture
                      // (light_pictures.h)
     vec4 middle;     // xyz position LS in metres; w type, LIGHT_<NAME> in shaders
-    vec4 along;      // xyz unit LS: a rectangle's width, a disk's radius, a tube's axis, a polygon's x; w half of it in
-                     // metres, the radius, half of its length; of a polygon how many corners
-    vec4 across;     // xyz unit LS, of what is flat: along x across points where it shines; w half the height, the
-                     // radius, or how far a polygon's farthest corner is
-    vec4 corners[4]; // of a polygon, metres: xy one and zw the next
+    vec4 along;      // xyz unit LS: axis along a rectangle's width, a disk's radius, a tube's axis, a polygon's x axis;
+                     // w half width, radius or half length in metres; number of corners of a polygon
+    vec4 across;     // xyz unit LS, flat lights: along x across points to the emitting side; w half height, radius, or
+                     // distance of a polygon's farthest corner, in metres
+    vec4 corners[4]; // corners of a polygon in metres: xy one and zw the next
 };
 
 #ifdef __cplusplus

@@ -1,5 +1,5 @@
 #pragma once
-// Where everything is bound. One list for C++ and GLSL; a number stands here and nowhere else.
+// Binding points for C++ and GLSL; these numbers are defined nowhere else.
 #include "interop.h"
 
 SHARED_BEGIN
@@ -38,20 +38,20 @@ SHARED_BEGIN
 #define STORAGE_LIST_TOTALS 6
 #define STORAGE_LIGHT_SHAPES 6
 #define STORAGE_LIGHTS 7
-#define STORAGE_HOOK_REST 0 // of what moves vertices
+#define STORAGE_HOOK_REST 0 // of passes/hook_vertices.comp
 #define STORAGE_HOOK_MOVED 1
-#define STORAGE_HOOK_POINTS 0 // of what changes surfaces for the reference
+#define STORAGE_HOOK_POINTS 0 // of passes/hook_surfaces.comp, for the reference
 #define STORAGE_HOOK_SURFACES 1
 
-// Texture units. OpenGL 4.5 guarantees that a stage samples 16 of at least 80; drivers let it sample 32. A frame whose
-// programs would sample more than the driver lets a stage goes without some textures of materials
-// (renderer/frame/TextureRoom.h). Programs that never sample both share a number.
+// Texture units. OpenGL 4.5 guarantees 16 per stage and 80 in all; drivers allow 32 per stage. A frame whose programs
+// would exceed the driver's limit omits some material textures (renderer/frame/TextureRoom.h). Textures that no program
+// samples together share a unit.
 #define TEXTURE_UNITS_A_STAGE 32
 #define TEXTURE_UNITS_GUARANTEED 16
 #define TEXTURE_UNITS_IN_ALL 80
 
-// What lights, in forward and deferred alike. Tiles and cells of light lists are storage blocks: a pixel reads one of
-// each, where it reads lights and entries in its loop. Deferred has a unit left for the tiles.
+// Lighting, forward and deferred. Tiles and cells of light lists are storage blocks, since a pixel reads one of each,
+// whereas it reads lights and entries in a loop. Deferred has a unit left for the tiles.
 #define TEXTURE_UNIT_LIGHTS 18
 #define TEXTURE_UNIT_SHADOWS 19
 #define TEXTURE_UNIT_LIGHT_ENTRIES 20
@@ -62,17 +62,17 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_LOBE_SHAPES 25
 #define TEXTURE_UNIT_LIGHT_PICTURES 26
 
-// What bodies of glass see: the picture of opaque surfaces, its coarser levels, and their depths; their own far sides.
+// Refraction: the image of opaque surfaces, its coarser levels and its depths; the back faces of glass bodies.
 #define TEXTURE_UNIT_BEHIND 27
 #define TEXTURE_UNIT_BEHIND_LEVELS 28
 #define TEXTURE_UNIT_BEHIND_DEPTH 29
 #define TEXTURE_UNIT_FAR_SIDES 30
 
-// What draws surfaces: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
+// Materials: the slots of scenes::TextureSlot, whose numbers TEXTURE_SLOT_<NAME> follow from its table
 // (renderer/frame/FeatureDefines.cpp).
 #define TEXTURE_SLOT_COUNT 18
 
-// What reads stored surfaces and pictures.
+// Passes that read the G-buffer and images.
 #define TEXTURE_UNIT_GBUFFER 0 // to 7
 #define TEXTURE_UNIT_DEPTH 8
 #define TEXTURE_UNIT_MATERIALS 9
@@ -80,10 +80,10 @@ SHARED_BEGIN
 #define TEXTURE_UNIT_SAMPLES 11
 #define TEXTURE_UNIT_LIGHT_TILES 12
 
-// What shows area lights, beside the depths.
+// The pass that draws area lights, besides the depths.
 #define TEXTURE_UNIT_SEEN_LIGHTS 9
 
-// What builds light lists, beside the depths.
+// Passes that build light lists, besides the depths.
 #define TEXTURE_UNIT_TRANSPARENT_DEPTH 9
 #define TEXTURE_UNIT_CULL_LIGHTS 10
 #define TEXTURE_UNIT_LIGHT_REACH 11

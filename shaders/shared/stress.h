@@ -1,10 +1,10 @@
 #pragma once
-// What the shaders of the stability suite (shaders/stress) share with the program that runs them.
+// Constants shared by the shaders of the stability suite (shaders/stress) and the program that runs them.
 #include "interop.h"
 
-// Invocations of a group.
+// Workgroup size.
 #define STRESS_GROUP 64
 
-// Storage blocks; nothing else that these shaders bind is a storage block.
+// Storage blocks; these shaders bind no other storage block.
 #define STORAGE_STRESS_INPUTS 0
 #define STORAGE_STRESS_OUTPUTS 1

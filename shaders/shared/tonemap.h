@@ -4,8 +4,7 @@
 
 SHARED_BEGIN
 
-// Leaves colours below 0.76 as they are (less the 4 % a dielectric reflects) and bends the rest towards white.
-// Source: Khronos Group 2024, "PBR Neutral Tone Mapper".
+// Keeps colours below 0.76 (less the 4 % that a dielectric reflects) and compresses the rest towards white.
 SHARED_FUNCTION vec3 toneMapKhronosNeutral(vec3 color) {
     const float kShoulder = 0.8f - 0.04f;
     const float kDesaturation = 0.15f;
@@ -48,7 +47,7 @@ SHARED_FUNCTION vec3 toneMapAgx(vec3 color) {
 SHARED_FUNCTION vec3 toneMapped(vec3 color, uint curve) {
     vec3 c = max(color, vec3(0.0f));
     if (curve == TONEMAP_NONE) return c;
-    c = min(c, vec3(1e9f)); // squares of more are no numbers
+    c = min(c, vec3(1e9f)); // larger values would overflow to NaN when squared
     if (curve == TONEMAP_KHRONOS_NEUTRAL) return toneMapKhronosNeutral(c);
     if (curve == TONEMAP_ACES) return toneMapAces(c);
     return toneMapAgx(c);

@@ -1,5 +1,5 @@
 #pragma once
-// What a pixel can show: VIEW of every shader that shades is one of these, and frame::DebugView has the same numbers.
+// Outputs of a pixel: the values of VIEW in shading shaders, the same as of frame::DebugView.
 #include "interop.h"
 
 #define VIEW_FINAL 0

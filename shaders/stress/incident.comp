@@ -1,5 +1,5 @@
-// Irradiance of lights at points. In: (position, index of the light). Out: (irradiance at normal incidence, 1 when the
-// light reaches), (direction, 0).
+// Irradiance of lights at points. In: (position, light index). Out: (irradiance at normal incidence, 1 if the light
+// reaches the point), (direction, 0).
 #include "records.glsl"
 #include "lib/light/light.glsl"
 

@@ -1,5 +1,5 @@
-// What a material sends to a viewer for one unit of light, by the product's own way from material to radiance.
-// In: (normal, 0), (tangent, handedness), (to light, 0), (to viewer, 0). Out: (BRDF times cosine, n.l).
+// BRDF times cosine of a material, by the renderer's path from material to radiance. In: (normal, 0), (tangent,
+// handedness), (to light, 0), (to viewer, 0). Out: (BRDF times cosine, n.l).
 #include "records.glsl"
 #include "lib/lighting/lighting.glsl"
 #include "lib/material/material.glsl"

@@ -71,7 +71,7 @@ def shellLine(job, words, unless=None):
 
 
 def benchLine(job, index):
-    # Without an earlier run --resume begins one.
+    # Without an earlier run, --resume starts one.
     return shellLine(job, [job.program, *job.words, "--shard", f"{index}/{job.shards}", "--resume", "-o", job.part(index)])
 
 
@@ -133,14 +133,14 @@ class Work:
 
     name: str
     words: str
-    own: list  # options that this tool gives
+    own: list  # options that this tool sets
     line: typing.Callable
     merge: typing.Optional[typing.Callable] = None
     pictures: typing.Optional[str] = None  # default of --name
-    isTimed: bool = False  # wants a machine for itself
-    isByScene: bool = False  # a shard is a scene; else --shards says how many there are
-    parts: typing.Optional[typing.Callable] = None  # how many parts the words can be divided into, or None
-    part: str = ""  # what such parts are called
+    isTimed: bool = False  # needs a machine of its own
+    isByScene: bool = False  # one shard per scene; else --shards is their number
+    parts: typing.Optional[typing.Callable] = None  # maximum number of parts of the words, or None
+    part: str = ""  # name of such parts
 
 
 WORKS = [
@@ -299,7 +299,7 @@ def submit(scheduled, out):
 def runHere(scheduled, merge, linesFile):
     code = max(subprocess.run(words).returncode for words in scheduled)
     if merge:
-        # It refuses what is not finished, and tells what was found.
+        # The merge refuses unfinished shards and reports the findings.
         return subprocess.run(["sh", "-c", merge]).returncode
     if code != 0:
         raise Refused(f"some of {linesFile} failed; what they said is above; run this again for what is missing")
@@ -371,7 +371,7 @@ def parsed(words):
     kind.add_argument("-o", "--output", required=True, metavar="FILE")
     kind.add_argument("files", nargs="+", metavar="SHARD")
     kind.set_defaults(run=join)
-    # What follows -- is the program's, whatever it looks like.
+    # All words after -- belong to the program.
     at = words.index("--") if "--" in words else len(words)
     arguments = parser.parse_args(words[:at])
     arguments.command = words[at + 1:]

@@ -1,7 +1,7 @@
 // Fits the shapes of GGX lobes, as linearly transformed cosines, in minutes on one core (docs/area-lights.md):
 //     cmake --build --preset release --target lobe_shapes
 // which runs `tessera_lobe_shapes renderer/frame/lobe_shapes.inc`. Source: Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time
-// Polygonal-Light Shading with Linearly Transformed Cosines"; what differs from it is said where it does.
+// Polygonal-Light Shading with Linearly Transformed Cosines"; differences are noted where they occur.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -21,23 +21,23 @@ namespace {
 using std::numbers::pi;
 
 constexpr int kSide = LOBE_SHAPES_SIDE;
-constexpr int kSamples = 2584, kShapeSamples = 1597; ///< of a lobe and of a shape
-constexpr double kGrading = 4.0; ///< samples lie denser at the rim, whose few long steps are far from the middle
+constexpr int kSamples = 2584, kShapeSamples = 1597; ///< per lobe and per shape
+constexpr double kGrading = 4.0; ///< denser at the disc's rim, which few long steps map far from the centre
 
-/// Alpha and a direction to the viewer in the plane of x and z.
+/// GGX alpha, and a direction to the viewer in the xz plane.
 struct View {
     double alpha = 1.0, cosine = 1.0, sine = 0.0;
-    double width = 1.0; ///< Smith's length of the viewer
+    double width = 1.0; ///< Smith's length of the view direction
 
     View(double ofAlpha, double cosView)
         : alpha(ofAlpha), cosine(cosView), sine(std::sqrt(1.0 - cosView * cosView)), width(smithLength(cosView)) {}
     double smithLength(double c) const { return std::sqrt(alpha * alpha + (1.0 - alpha * alpha) * c * c); }
 };
 
-/// Both in 1/sr.
+/// Densities in 1/sr.
 struct Densities {
-    double brdfCosine = 0.0; ///< GGX without Fresnel, times the cosine of the light
-    double visible = 0.0;    ///< with which the facets that the viewer sees send light there: 1 over the sphere
+    double brdfCosine = 0.0; ///< GGX without Fresnel, times the light's cosine
+    double visible = 0.0;    ///< of reflections at visible microfacets; integrates to 1 over the sphere
 };
 
 Densities densitiesAt(const View& view, const glm::dvec3& light) {
@@ -59,8 +59,8 @@ struct Place {
     double share = 0.0;
 };
 
-/// Places of the half y > 0 of a unit disc, and their shares of it, denser at the rim. No two lie on a circle or a ray:
-/// rows of a grid would pass the edges of what is integrated all at once, which traps a search.
+/// Points in the half y > 0 of a unit disc, and their area fractions, denser at the rim. No two lie on a circle or a
+/// ray: rows of a grid would cross the edges of the integrand all at once, which traps a search.
 std::vector<Place> halfDisc(int count) {
     std::vector<Place> places;
     for (int i = 0; i < count; ++i) {
@@ -72,7 +72,7 @@ std::vector<Place> halfDisc(int count) {
     return places;
 }
 
-/// The direction to which the facet sends the viewer's light whose place on the disc this is. Source: Heitz 2018,
+/// The direction of reflection at the visible microfacet that a point on the disc samples. Source: Heitz 2018,
 /// "Sampling the GGX Distribution of Visible Normals".
 glm::dvec3 lightOfVisible(const View& view, const glm::dvec2& disc) {
     const glm::dvec3 stretched = glm::dvec3(view.alpha * view.sine, 0.0, view.cosine) / view.width;
@@ -87,7 +87,7 @@ glm::dvec3 lightOfVisible(const View& view, const glm::dvec2& disc) {
     return 2.0 * glm::dot(viewer, half) * half - viewer;
 }
 
-/// A transformed cosine, from four numbers of the table.
+/// A linearly transformed cosine, from four numbers of the table.
 class Shape {
 public:
     Shape(const glm::vec4& numbers, const View& view)
@@ -98,7 +98,7 @@ public:
     bool isValid() const { return determinant_ > 0.0 && share_ > 0.0; }
     double shareAbove() const { return share_; }
     const glm::dmat3& inverse() const { return inverse_; }
-    /// 1 over the sphere.
+    /// Integrates to 1 over the sphere.
     double density(const glm::dvec3& light) const {
         const glm::dvec3 cosine = inverse_ * light;
         const double length2 = glm::dot(cosine, cosine);
@@ -110,7 +110,7 @@ private:
     double determinant_ = 0.0, share_ = 0.0;
 };
 
-/// How far shapes are from the lobe of a view.
+/// The distance of shapes from the lobe of a view.
 class Lobe {
 public:
     explicit Lobe(const View& view) : view_(view) {
@@ -123,11 +123,11 @@ public:
         }
     }
 
-    /// The integral of |lobe - shape| over the hemisphere, both scaled to integrate to 1: twice the largest error that
-    /// an evenly bright light of any outline can have, in parts of what the lobe reflects of even light. (The paper
-    /// takes the third power, and does not scale shapes that lie partly below the surface.) By samples of both,
-    /// weighted by the balance heuristic: Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte
-    /// Carlo Rendering".
+    /// The integral of |lobe - shape| over the hemisphere, both scaled to integrate to 1: twice the largest error of a
+    /// uniformly bright light of any outline, relative to the lobe's reflection of uniform illumination. (The paper
+    /// uses the third power, and does not scale shapes that lie partly below the surface.) Samples both, weighted by
+    /// the balance heuristic: Veach and Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo
+    /// Rendering".
     double distance(const glm::vec4& numbers) const {
         const Shape shape(numbers, view_);
         if (!shape.isValid()) return 1e3;
@@ -156,7 +156,7 @@ private:
     };
     View view_;
     std::vector<Sample> samples_;
-    double total_ = 0.0; ///< what the lobe reflects of even light
+    double total_ = 0.0; ///< the lobe's reflection of uniform illumination
 };
 
 struct Fitted {
@@ -164,9 +164,8 @@ struct Fitted {
     double cost = std::numeric_limits<double>::infinity();
 };
 
-/// The least distance near a start. Numbers are pulled to those of `target`, by `pull` times the square of how far they
-/// are: where they hardly matter they stay near their neighbours'. Where the view is along the normal the lobe is as
-/// wide to all sides, and only s is free.
+/// Minimises the distance from a start. Adds `pull` times the squared difference to `target`: numbers that hardly
+/// matter stay near their neighbours'. With the view along the normal the lobe is isotropic, and only s is free.
 Fitted minimise(const Lobe& lobe, const glm::vec4& start, const glm::vec4& target, double pull, bool isAlongNormal) {
     struct Search {
         const Lobe& lobe;
@@ -190,7 +189,7 @@ Fitted minimise(const Lobe& lobe, const glm::vec4& start, const glm::vec4& targe
     simplex.set_xtol_abs(2e-6);
     simplex.set_maxeval(2000);
     double best = std::numeric_limits<double>::infinity();
-    for (double step = 0.1, least = 0.0;; step *= 0.5, best = least) { // a simplex may collapse: begin anew
+    for (double step = 0.1, least = 0.0;; step *= 0.5, best = least) { // a simplex may collapse: restart
         simplex.set_initial_step(step);
         simplex.optimize(x, least);
         if (!(least < best - 1e-6)) break;
@@ -209,11 +208,11 @@ double cosineOf(int column) {
 
 class Table {
 public:
-    /// From the rough end and from the normal outwards: each entry starts from those that are known beside it.
+    /// Fits from the rough end and from the normal outwards: each entry starts from its fitted neighbours.
     void fit() {
         for (int row = kSide - 1; row >= 0; --row) {
             const glm::vec4 rougher = row + 1 < kSide ? at(row + 1, kSide - 1) : glm::vec4(1.0f, 0.0f, 2.0f, 0.0f);
-            // At the normal q and r do nothing, but between it and the next column.
+            // q and r have no effect at the normal, but are interpolated to the next column.
             const glm::vec4 near = best(Lobe(View(alphaOf(row), kNearNormal)), {rougher}, kSlightPull);
             at(row, kSide - 1) = alongNormal(row, near);
             for (int column = kSide - 2; column >= 0; --column) {

@@ -33,7 +33,7 @@ AttributionLine lineOf(const std::string& cause, const std::string& what, const 
     return {cause, what, against, finite(figures.relMse), finite(figures.p99Rel), finite(figures.bias)};
 }
 
-/// What is rendered where only some causes act: both sides of the difference from the truth see this scene.
+/// The scene and settings with only some causes of error active. Both the image and its truth are rendered from it.
 struct Ground {
     scenes::Scene scene;
     frame::FrameSettings settings;
@@ -46,12 +46,12 @@ struct Part {
     bool addsLight; ///< the effect adds light, so it is measured alone; else it alters the light of all sources
     bool (*isIn)(const Ground& whole);
     void (*turnOff)(Ground& ground);
-    /// Name of the method, from the truth's settings with those that `take` copies from a point.
+    /// Name of the method, from the truth's settings after `take` has copied a point's.
     std::string (*text)(const scenes::Scene& scene, const frame::FrameSettings& settings);
     void (*take)(frame::FrameSettings& settings, const frame::FrameSettings& own);
 };
 
-/// Of kinds whose method follows from scene and settings alone.
+/// Method text of kinds that depend on scene and settings alone.
 std::string textOf(MethodKind kind, const scenes::Scene& scene, const frame::FrameSettings& settings) {
     const frame::PreparedView none{};
     return methodText(kind, methodKeyOf(kind, {scene, settings, none}));
@@ -61,7 +61,7 @@ bool isArea(const scenes::Light& light) {
     return scenes::infoOf(light.type).isArea;
 }
 
-/// Black in place of glass: it covers the same pixels and hides no light, as glass does not.
+/// Replaces glass by black without shadows: it covers the same pixels and, like glass, blocks no light.
 void blackenGlass(scenes::Scene& scene) {
     for (scenes::Node& node : scene.nodes)
         for (scenes::MeshInstance& instance : node.instances)
@@ -79,7 +79,7 @@ void blackenGlass(scenes::Scene& scene) {
     }
 }
 
-/// What adds light goes first. Those behind it act in turn, each on top of all before it.
+/// Effects that add light come first. Each later effect is measured on top of all before it.
 constexpr Part kParts[] = {
     {"noise", true,
      [](const Ground& whole) {
@@ -137,7 +137,7 @@ constexpr Part kParts[] = {
      [](frame::FrameSettings& settings, const frame::FrameSettings& own) { settings.refraction = own.refraction; }},
 };
 
-/// The difference of a picture from the truth of what it shows, by pixel and channel.
+/// The difference of an image from its truth, per pixel and channel.
 using Difference = std::vector<float>;
 
 Difference operator-(Difference a, const Difference& b) {
@@ -148,7 +148,7 @@ Difference operator-(Difference a, const Difference& b) {
 Difference differenceOf(const Picture& shown, const Picture& right) {
     Difference result;
     for (std::size_t i = 0; i < shown.rgba.size(); ++i)
-        result.push_back(i % 4 == 3 ? 0.0f : shown.rgba[i] - right.rgba[i]); // not the coverage
+        result.push_back(i % 4 == 3 ? 0.0f : shown.rgba[i] - right.rgba[i]); // alpha is coverage
     return result;
 }
 
@@ -173,7 +173,7 @@ public:
 
 private:
     void add(const AttributionLine& line) { lines_.push_back(line); }
-    /// Error figures of the truth plus a difference. Where rounding decides what is shown, the truth is as forward.
+    /// Error figures of the truth plus a difference. Rounding ties in the truth are resolved as forward does.
     RadianceFigures figuresOf(const Difference& difference) const {
         Picture off = right_;
         for (std::size_t i = 0; i < difference.size(); ++i) off.rgba[i] += difference[i];
@@ -183,31 +183,31 @@ private:
         differences_[what] = difference;
         add(lineOf(cause, what, truthName_, figuresOf(difference)));
     }
-    /// What a choice adds to the error of forward.
+    /// Records the error that a choice adds to that of forward.
     void addChoice(const char* cause, const std::string& what, const char* against, const Picture& shown) {
         const Difference added = differenceOf(shown, truth_.pictureFor(shown)) - differenceOf(exact_, right_);
         differences_[what] = added;
         add(lineOf(cause, what, against, figuresOf(added)));
     }
 
-    /// Renders the ground with `settings` and subtracts the ground's own truth.
+    /// Renders the ground with `settings` and subtracts the ground's truth.
     Difference differenceOn(engine::Renderer& renderer, const Ground& ground,
                             const frame::FrameSettings& settings) const {
         const Picture shown = toPicture(renderer.render(Technique::Forward, settings));
-        // The group's own truth is known.
+        // The group's truth is already rendered.
         return differenceOf(shown, &renderer == &truth_.renderer()
                                        ? truth_.pictureFor(shown)
                                        : truth_.pictureOn(renderer, ground.settings, shown));
     }
 
-    /// A ground with its renderer: the group's own if all effects are on.
+    /// A ground with its renderer: the group's renderer if all effects are on.
     struct Stage {
         Ground ground;
         std::unique_ptr<engine::Renderer> own = {};
     };
     template <typename IsOn>
     std::unique_ptr<Stage> stageOf(std::span<const Part* const> in, const IsOn& isOn) const {
-        auto stage = std::make_unique<Stage>(Stage{whole_}); // its scene stays where it is
+        auto stage = std::make_unique<Stage>(Stage{whole_}); // on the heap: the renderer refers to its scene
         bool isWhole = true;
         for (const Part* part : in) {
             if (isOn(*part)) continue;
@@ -228,14 +228,14 @@ private:
         return in;
     }
 
-    /// Settings with a point's methods for the light that a part alters.
+    /// `usual` with a point's methods for the effects before `part`, whose light the part alters.
     frame::FrameSettings settingsBefore(const Part& part, const frame::FrameSettings& own,
                                         frame::FrameSettings usual) const {
         for (const Part* before : in_)
             if (!part.addsLight && before < &part) before->take(usual, own);
         return usual;
     }
-    /// The same with the point's method for the part.
+    /// The same, with the point's method for the part itself.
     frame::FrameSettings settingsOf(const Part& part, const frame::FrameSettings& own,
                                     const frame::FrameSettings& usual) const {
         frame::FrameSettings settings = settingsBefore(part, own, usual);
@@ -243,7 +243,7 @@ private:
         return settings;
     }
 
-    /// Names the method of a part, and those of the light that it alters where the points differ in them. Empty: none.
+    /// Names a part's method, and earlier effects' methods that differ between points. Empty if it has none.
     std::string textOf(const Part& part, const frame::FrameSettings& own) const {
         const frame::FrameSettings settings = settingsOf(part, own, whole_.settings);
         std::string text = part.text(whole_.scene, settings);
@@ -263,8 +263,7 @@ private:
     void addParts() {
         const std::unique_ptr<Stage> base = stageOf(in_, [](const Part&) { return false; });
         const Difference arithmetic = differenceOn(*base, base->ground.settings);
-        // Against itself forward has no error. A difference of 0 in all pixels means that no light is left to measure
-        // by.
+        // Forward has no error against itself. If the difference is 0 in all pixels, the base stage has no light.
         const bool isMeasured = std::ranges::any_of(arithmetic, [](float value) { return value != 0.0f; });
         if (truthName_ == "reference" && isMeasured) addPart("arithmetic", kArithmetic, arithmetic);
         for (const Part* own : in_) {
@@ -287,7 +286,7 @@ private:
     }
 
     void addFilter() {
-        // Nothing was chosen where the timed frames filter exactly too.
+        // Skipped unless timed frames filter by hardware and the truth exactly.
         if (points_.front().settings.filter == frame::TextureFilter::Exact ||
             truth_.filter() != frame::TextureFilter::Exact ||
             !frame::materialFeatures(truth_.renderer().scene()).textures())
@@ -301,7 +300,7 @@ private:
                    radianceFigures(filtered, exact_)));
     }
 
-    /// How a point's shadows differ from traced ones with rays enough; empty: not at all.
+    /// Names how a point's shadows differ from traced shadows with enough rays; empty if they do not.
     static std::string shadowCause(const BenchPoint& point) {
         const std::optional<MethodKey>& shadows = point.key.method(MethodKind::Shadows);
         if (!shadows) return {};
@@ -350,11 +349,11 @@ private:
         for (const BenchPoint& point : points_) {
             if (layoutCause(point).empty() || !done.insert(point.key.layout).second) continue;
             CompareRequest request;
-            request.techniques = {Technique::TiledDeferred}; // draws once per channel: the fastest of one G-buffer
+            request.techniques = {Technique::TiledDeferred}; // draws once per channel: the fastest with a G-buffer
             request.settings = truth_.settings();
             request.settings.shadowSamples = point.settings.shadowSamples; // both sides have the same noise
             request.settings.layout = point.settings.layout;
-            request.settings.display = true; // the comparison shows its pictures too
+            request.settings.display = true; // the comparison needs display images too
             const CompareResult compared = compareTechniques(truth_.renderer(), context_.capabilities(), request);
             const ComparePair& pair = compared.record.pairs.front();
             differences_[layoutCause(point)] = differenceOf(compared.pictures.front().picture, compared.truth.picture);
@@ -369,15 +368,16 @@ private:
         }
     }
 
-    /// The names of the lines that make up a point's error.
+    /// The names of the lines whose errors make up a point's error.
     std::set<std::string> causesOf(const BenchPoint& point) const {
         std::set<std::string> names{kArithmetic, shadowCause(point), rangeCause(point), layoutCause(point)};
         for (const Part* part : in_) names.insert(textOf(*part, point.settings));
         return names;
     }
 
-    /// The error of a point of each set of causes, all together; and how far the relMse of the causes' sum is from
-    /// the sum of theirs, since errors of one place may add up or cancel: with it they make up the point's.
+    /// Adds, per distinct set of causes, a point's total error and its cross term: relMse of the summed differences
+    /// minus the sum of the causes' relMse. Errors in a pixel add up or cancel; with the cross term the causes sum to
+    /// the total.
     void addWholes() {
         std::set<std::set<std::string>> done;
         for (const BenchPoint& point : points_) {
@@ -409,9 +409,9 @@ private:
     const std::string& truthName_;
     std::span<const BenchPoint> points_;
     const Ground whole_;
-    const std::vector<const Part*> in_; ///< those of the scene, in the order of the table
-    const Picture exact_;               ///< of forward, by the settings of the truth
-    const Picture right_;               ///< the truth of that
+    const std::vector<const Part*> in_; ///< effects in the scene, in table order
+    const Picture exact_;               ///< forward's image with the truth's settings
+    const Picture right_;               ///< the truth of exact_
     std::vector<AttributionLine> lines_;
     std::map<std::string, Difference> differences_; ///< by AttributionLine::what
 };

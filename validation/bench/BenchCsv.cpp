@@ -52,7 +52,7 @@ Column counterColumn(const char* name, std::uint64_t BenchCounters::*figure) {
             }};
 }
 
-/// The name of a method, or with `name` one of its settings.
+/// A column with a method's name, or with `name` one of its settings.
 Column methodColumn(MethodKind kind, std::optional<std::string_view> name = {}) {
     return {name.value_or(infoOf(kind).key),
             [kind, name](const BenchGroup&, const BenchResult& result, std::optional<bool>) {

@@ -20,7 +20,7 @@ namespace tessera::validation {
 
 namespace {
 
-/// What shapes of marks show in plots: the method of a kind of which several were measured, else the G-buffer layout.
+/// The meaning of mark shapes in plots: the method of a kind with several measured methods, else the G-buffer layout.
 struct MarkKind {
     std::string_view name, words;
     const MethodKindInfo* kind = nullptr; ///< null: the layout
@@ -63,13 +63,13 @@ Json plotPoint(const BenchResult& result, const MarkKind& kind, std::optional<bo
             {"best", isBest}};
 }
 
-/// What the legend says of a curve; empty where there are too few points to say anything.
+/// Legend text for the growth of a curve; empty if it has too few points for a fit.
 std::string growthText(const ScalingCurve& curve) {
     if (!curve.fit) return "";
     return curve.fit->isTrend() ? fmt::format("{:.2f}", curve.fit->exponent) : "no trend";
 }
 
-/// What bench.js draws.
+/// The data that bench.js plots.
 Json plotData(const BenchRecord& record) {
     const MarkKind kind = markKindOf(record);
     Json data = {
@@ -97,7 +97,7 @@ Json plotData(const BenchRecord& record) {
     return data;
 }
 
-/// JSON within a script element: nothing in it may end the element.
+/// JSON for a script element, with '<' escaped so that it cannot end the element.
 std::string scriptData(const Json& json) {
     std::string text;
     for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
@@ -229,7 +229,7 @@ std::string allPicturesHtml(const BenchRecord& record, const PictureBytes& bytes
 std::string causesHtml(const BenchRecord& record) {
     std::string html;
     for (const BenchGroup& group : record.groups) {
-        // One of each scene: its pictures are the ones kept.
+        // One group per scene: the one that keeps images.
         if (!group.pictures.empty()) html += attributionHtml(group);
     }
     if (html.empty()) return "";

@@ -10,18 +10,18 @@
 
 #include "base/Error.h"
 
-/// What the sources that write a benchmark's JSON share. Only for sources: it brings the whole JSON library.
+/// Helpers shared by the sources that write a benchmark's JSON. Not for headers: includes the whole JSON library.
 namespace tessera::validation {
 
-using Json = nlohmann::ordered_json; ///< fields stay in the order in which they are written
+using Json = nlohmann::ordered_json; ///< keeps fields in insertion order
 
 template <typename T>
 Json orNull(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-/// A whole number of a range. Throws InputError for others: a plain conversion would wrap those beyond T, and is
-/// undefined for large fractions.
+/// Reads an integer in [least, most]. Throws InputError otherwise: a plain conversion would wrap values beyond T, and
+/// is undefined for large fractions.
 template <std::integral T>
 T wholeNumber(const Json& json, T least = std::numeric_limits<T>::min(), T most = std::numeric_limits<T>::max()) {
     const auto fits = [&](auto number) {

@@ -42,7 +42,7 @@ std::vector<const BenchGroup*> groupsOf(std::span<const MachineBench> machines) 
     return groups;
 }
 
-/// Adds a machine's results to the rows, a column of them.
+/// Adds a machine's results to the rows, as one column.
 void addColumn(std::vector<MachineRow>& rows, std::size_t machine, std::size_t machines, const BenchGroup& group) {
     double fastestMs = std::numeric_limits<double>::infinity();
     for (const BenchResult& result : group.results) fastestMs = std::min(fastestMs, result.times.cpuMs.median);

@@ -7,13 +7,13 @@
 #include "validation/bench/BenchRecord.h"
 #include "validation/report/Report.h"
 
-/// The same points measured by several machines, a column each. What is compared across them is the picture's error;
-/// times are put in relation within a machine alone, since a machine's time says nothing of a technique on another one.
+/// The same points measured on several machines, one column each. Errors are compared across machines; times only
+/// within a machine, since they do not predict a technique's time on another one.
 namespace tessera::validation {
 
-/// What one machine measured, all of a run or a share.
+/// The measurements of one machine: a whole run or part of one.
 struct MachineBench {
-    std::string folder; ///< of its own record and page, from the common page on: "machines/1"
+    std::string folder; ///< its record and page, relative to the common page: "machines/1"
     BenchRecord record;
 };
 
@@ -24,7 +24,7 @@ struct MachineCell {
     bool isRecommended = false;
 };
 
-/// A point, by machine; none where that machine did not measure its group.
+/// A point on each machine; unset where a machine did not measure its group.
 struct MachineRow {
     std::string point;
     std::vector<std::optional<MachineCell>> cells;
@@ -35,8 +35,8 @@ struct MachineGroup {
     std::vector<MachineRow> rows;
 };
 
-/// Every group that any machine measured, scenes in the order in which they are first met, then by pixels and lights.
-/// Pointers into `machines`.
+/// Every group that any machine measured, ordered by first appearance of its scene, then by pixels and lights. Holds
+/// pointers into `machines`.
 std::vector<MachineGroup> machineGroups(std::span<const MachineBench> machines);
 
 inline constexpr int kMachinesSchema = 1;

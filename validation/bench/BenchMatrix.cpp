@@ -61,7 +61,7 @@ glm::ivec2 sizeIn(const ParsedJson& value, const std::string& source, const std:
         fmt::format("{} is no size such as \"1280x720\", each side 1 to {}", value.dump(), frame::kLargestSidePixels));
 }
 
-/// The text of a setting whose values are numbers, or of one that is left open.
+/// Reads a numeric setting, or the text that leaves it unset, and returns its text.
 std::string numberTextIn(const engine::Setting& setting, const ParsedJson& value, const std::string& source) {
     const std::string key(setting.key);
     const bool isOpen = value.is_string() && !setting.value.open.empty() && value == setting.value.open;
@@ -76,7 +76,7 @@ std::string numberTextIn(const engine::Setting& setting, const ParsedJson& value
     }
 }
 
-/// As numberTextIn(), of a setting that is on or off.
+/// As numberTextIn(), for an on/off setting.
 std::string switchTextIn(const ParsedJson& value, const std::string& source, const std::string& key) {
     if (value == "on" || value == "off") return value.get<std::string>();
     if (!value.is_boolean()) refuse(source, key, fmt::format("{} is neither true nor false", value.dump()));
@@ -89,13 +89,13 @@ void addSettingValue(BenchMatrix& matrix, std::string_view key, std::string text
     values->texts.push_back(std::move(text));
 }
 
-/// Keys of the matrix and what reads a value of each.
+/// A key of the matrix and the parser of its values.
 struct Key {
     std::string_view name;
     std::function<void(BenchMatrix&, const ParsedJson&, const std::string& source)> add;
 };
 
-/// Of a setting whose values are numbers, or on and off.
+/// The key of a numeric or on/off setting.
 Key settingKey(std::string_view key) {
     return {key, [key](BenchMatrix& matrix, const ParsedJson& value, const std::string& source) {
                 const engine::Setting& setting = engine::settingOf(key);
@@ -185,7 +185,7 @@ BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes
                                isEntry ? fmt::format(", as in {{\"{}\": [{}]}}", name, values.dump()) : ""));
         }
         points *= double(values.size());
-        if (points > double(kMostMatrixPoints)) continue; // reads no more, and counts on
+        if (points > double(kMostMatrixPoints)) continue; // stops reading values, but still counts points
         for (const ParsedJson& value : values) found->add(matrix, value, source);
     }
     if (!root.contains("technique")) points *= double(engine::techniqueTable().size());

@@ -9,8 +9,8 @@
 
 namespace tessera::validation {
 
-/// What `tessera bench` runs through: the Cartesian product of these lists. An empty list stands for one entry, what
-/// the settings of the command line say.
+/// The points of `tessera bench`: the Cartesian product of these lists. An empty list stands for one entry, the value
+/// from the command line.
 struct BenchMatrix {
     /// A method, or a setting of one (MethodKey.h): its key and the texts of its values.
     struct SettingValues {
@@ -18,28 +18,28 @@ struct BenchMatrix {
         std::vector<std::string> texts;
     };
     std::vector<engine::Technique> techniques; ///< empty: all
-    std::vector<culling::Method> methods;      ///< empty: every method that the technique takes
-    bool preferredMethodsOnly = false;         ///< without methods: the one alone that the technique prefers
+    std::vector<culling::Method> methods;      ///< empty: every method that the technique supports
+    bool preferredMethodsOnly = false;         ///< if methods is empty: only the technique's preferred one
     std::vector<int> tilesPixels;
     std::vector<frame::LayoutInfo> layouts;
     std::vector<frame::LightingStage> stages;
     std::vector<int> lights;
     std::vector<glm::ivec2> sizesPixels;
     std::vector<double> rangeTolerances;
-    std::vector<SettingValues> settings; ///< of each key that varies; not empty
+    std::vector<SettingValues> settings; ///< one entry per varied key, each with at least one text
 };
 
-/// Points that a matrix may ask for at most in a scene: more would take weeks, and memory without a bound.
+/// Maximum number of points per scene: more would take weeks, and unbounded memory.
 inline constexpr std::size_t kMostMatrixPoints = 100'000;
-/// Combinations of values of settings among them, which are compared with each other.
+/// Maximum number of combinations of setting values, which are compared pairwise.
 inline constexpr std::size_t kMostMatrixVariants = 1'000;
 
 /// "technique, culling, ...": all keys.
 std::string matrixKeys();
 
-/// Reads the matrix of a JSON object of arrays with these keys. `source` names it in messages. Throws InputError that
-/// names the line and column of broken syntax, a key that is given twice, or the key or value and the nearest valid
-/// ones, or the number of points or variants where it is too large. The ledger is charged for it.
+/// Parses a JSON object of arrays with these keys. `source` names it in messages. Throws InputError, which names the
+/// line and column of a syntax error, a duplicate key, the invalid key or value with the nearest valid ones, or the
+/// number of points or variants if too large. Charges its memory to the ledger.
 BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes::LoadLedger& ledger);
 
 } // namespace tessera::validation

@@ -19,13 +19,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kMergeRemedy = "measure every shard with the same command and scenes";
 
-/// What becomes one run.
+/// The parts of a merged run.
 struct MergePlan {
-    Json run; ///< run.json of the whole
+    Json run; ///< run.json of the merged run
     std::vector<fs::path> files;
 };
 
-/// The run of all shards, from that of the first.
+/// run.json of the merged run, derived from the first shard's.
 Json wholeRun(const Json& first, bool isShare) {
     Json run = first;
     run["shard"] = {1, 1};
@@ -37,7 +37,7 @@ Json wholeRun(const Json& first, bool isShare) {
     return run;
 }
 
-/// Checks shards of one machine, which are all of its run unless it `mayShare` it with others.
+/// Checks the shards of one machine. They must be complete unless `mayShare`: then other machines may have the rest.
 MergePlan planMerge(const std::vector<std::string>& shards, const std::string& folder, bool mayShare) {
     const Json first = runIn(shards.front());
     const int count = first.at("shard").at(1).get<int>();
@@ -87,12 +87,12 @@ FolderLock writeMerge(const MergePlan& plan, const std::string& folder) {
         scenes::LoadLedger ledger;
         writeFileAtomically((partsOf(folder) / file.filename()).string(), bytesOf(file, ledger));
     }
-    // Last, so that a merge cut short is no run.
+    // Last, so that an interrupted merge does not count as a run.
     writeFileAtomically(runFile(folder).string(), plan.run.dump(1) + "\n");
     return lock;
 }
 
-/// Throws InputError where a group was measured nowhere.
+/// Throws InputError if any group was measured by no machine.
 void requireEveryGroup(const std::vector<std::vector<std::string>>& machines, std::size_t groups) {
     std::vector<bool> isMeasured(groups);
     for (const std::vector<std::string>& shards : machines) {
@@ -119,7 +119,7 @@ FolderLock mergeRuns(const std::vector<std::string>& shards, const std::string& 
 
 std::vector<std::vector<std::string>> shardsByMachine(const std::vector<std::string>& shards) {
     std::vector<std::vector<std::string>> machines;
-    std::vector<Json> runs; // of the first shard of each
+    std::vector<Json> runs; // run.json of each machine's first shard
     for (const std::string& shard : shards) {
         Json run = runIn(shard);
         const auto known = std::ranges::find_if(runs, [&run](const Json& other) {

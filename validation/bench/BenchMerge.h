@@ -4,25 +4,25 @@
 
 #include "validation/bench/FolderLock.h"
 
-/// Puts what was measured in parts together.
+/// Merges the shards of benchmark runs.
 namespace tessera::validation {
 
-/// Puts finished shards of one run together in `folder`, which is made where it is missing, and returns the lock on it
-/// for what else is to be written there. Throws InputError when they are of different machines, of different runs or of
-/// a scene that changed between them, saying in what, when a shard is unfinished, missing or given twice, and when the
-/// folder holds an unfinished run; std::runtime_error when another process uses the folder.
+/// Merges finished shards of one run into `folder`, created if missing, and returns its lock for further writes. Throws
+/// InputError, naming the difference, if shards come from different machines or runs or a scene changed between them;
+/// if a shard is unfinished, missing or given twice; and if the folder holds an unfinished run. Throws
+/// std::runtime_error if another process uses the folder.
 FolderLock mergeRuns(const std::vector<std::string>& shards, const std::string& folder);
 
-/// The folders of shards by what measured them, a machine with its renderer and driver, in the order in which these are
-/// first named. Throws InputError where a folder holds no run.
+/// Groups shard folders by machine, renderer and driver, in order of first appearance. Throws InputError if a folder
+/// holds no run.
 std::vector<std::vector<std::string>> shardsByMachine(const std::vector<std::string>& shards);
 
-/// Where the share of a machine, counted from 0, is put: "FOLDER/machines/1".
+/// The folder for a machine's merged shards: "FOLDER/machines/1" for `machine` 0.
 std::string machineFolder(const std::string& folder, std::size_t machine);
 
-/// Puts the shards of several machines together, of each in its machineFolder(), and returns the lock on `folder`. A
-/// machine may have measured all of the run or some shards, of any number, but each group is measured somewhere. Throws
-/// as mergeRuns() does, before anything is written; and where `folder` holds a run itself.
+/// Merges the shards of several machines, each into its machineFolder(), and returns the lock on `folder`. A machine
+/// may have measured the whole run or some shards, with its own shard count, but every group must have been measured.
+/// Throws like mergeRuns(), before anything is written, and if `folder` itself holds a run.
 FolderLock mergeMachines(const std::vector<std::vector<std::string>>& machines, const std::string& folder);
 
 } // namespace tessera::validation

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What `read` makes of the file's JSON; a damaged file is the user's to decide about, and `remedy` says how.
+/// Parses a JSON file and returns read(json). Throws InputError with the advice `remedy` if the file is damaged.
 template <typename Read>
 auto readJson(const fs::path& file, const std::string& remedy, Read&& read) {
     scenes::LoadLedger ledger;
@@ -41,7 +41,7 @@ auto readJson(const fs::path& file, const std::string& remedy, Read&& read) {
     throw InputError(fmt::format("{}: is damaged: {}; {}", file.string(), what, remedy));
 }
 
-/// Throws the JSON reader's exception if a field that is read later is missing, or InputError.
+/// Throws Json::exception or InputError if a field that is read later is missing or invalid.
 void requireRunFields(const Json& run) {
     for (const char* name : {"machine", "renderer", "driver", "commit", "settings", "against", "command"})
         static_cast<void>(run.at(name).get_ref<const std::string&>());
@@ -64,7 +64,7 @@ void requireRunFields(const Json& run) {
 
 constexpr std::string_view kRunName = "run.json", kGroupPrefix = "group-", kTemporaryPrefix = ".tessera-";
 
-/// Whether a run has made it, be it one that was cut short.
+/// Whether a run wrote this file, including interrupted runs.
 bool isPart(const fs::directory_entry& entry) {
     std::error_code ignored;
     const std::string name = entry.path().filename().string();
@@ -72,7 +72,7 @@ bool isPart(const fs::directory_entry& entry) {
            (name == kRunName || name.starts_with(kGroupPrefix) || name.starts_with(kTemporaryPrefix));
 }
 
-/// Something in the place of a folder of parts that is someone's, if anything is.
+/// The first entry of a parts folder that no run wrote, or a file in the folder's place; unset if none.
 std::optional<fs::path> foreignIn(const fs::path& parts) {
     std::error_code error;
     if (!fs::is_directory(parts, error)) return fs::exists(parts, error) ? std::optional(parts) : std::nullopt;

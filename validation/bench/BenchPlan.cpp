@@ -24,7 +24,7 @@ namespace {
 using culling::Method;
 using engine::Technique;
 
-/// The list, or one entry that says nothing.
+/// The list, or a single unset entry if it is empty.
 template <typename T>
 std::vector<std::optional<T>> orDefault(const std::vector<T>& list) {
     if (list.empty()) return {std::nullopt};
@@ -38,7 +38,7 @@ std::string layoutName(const frame::GBufferLayout& layout) {
     return "mixed";
 }
 
-/// Ranges say something only of lights that fall off by A B C.
+/// Whether a range tolerance affects any light of the scene.
 bool rangesMatter(const scenes::Scene& scene) {
     return std::any_of(scene.lights.begin(), scene.lights.end(),
                        [](const scenes::Light& light) { return light.enabled && frame::takesTolerance(light); });
@@ -56,15 +56,15 @@ void tellEachOnce(std::vector<SkippedPoint>& skipped) {
     skipped = std::move(once);
 }
 
-/// What the points of a group have in common with every technique: a range tolerance and methods.
+/// The part of a group's points that all techniques share: a range tolerance and methods.
 struct Variant {
-    std::optional<double> range; ///< as the matrix has it
+    std::optional<double> range; ///< from the matrix
     frame::FrameSettings settings;
     std::vector<frame::ShadowFace> faces; ///< of its shadow maps
     MethodKeys methods{};
 };
 
-/// Other settings of maps are no other frame where the faces are the same.
+/// Whether two variants render the same frame: shadow map settings do not matter if the faces are equal.
 bool isSameFrame(const Variant& a, const Variant& b) {
     const auto isSame = [&](const MethodKindInfo& info) {
         const auto &ofA = a.methods[std::size_t(info.kind)], &ofB = b.methods[std::size_t(info.kind)];
@@ -78,7 +78,7 @@ bool isSameFrame(const Variant& a, const Variant& b) {
 }
 
 struct Choice {
-    std::string asked; ///< in words of the matrix; empty where it has none
+    std::string asked; ///< keys and values from the matrix; empty without any
     frame::FrameSettings settings;
 };
 
@@ -132,7 +132,7 @@ std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, cons
         frame::FrameSettings settings = group.settings;
         if (range) settings.rangeTolerance = *range;
         if (!rangesMatter(scene)) settings.rangeTolerance = 0.0;
-        // Where the truth has nothing of a kind, the matrix adds none.
+        // Kinds of method that the truth's frame does not use stay unset.
         const frame::PreparedView whole = preparedFor(scene, settings);
         std::array<bool, kMethodKinds> isUsed{};
         for (const MethodKindInfo& info : methodKindTable())
@@ -158,7 +158,7 @@ std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, cons
     return variants;
 }
 
-/// The points of one technique, and what it does not support, in the order of the matrix.
+/// Adds the points of one technique, and its unsupported combinations as skipped, in the order of the matrix.
 class TechniquePoints {
 public:
     TechniquePoints(BenchPlan& plan, PlannedGroup& group, const BenchMatrix& matrix, const scenes::Scene& scene,
@@ -243,7 +243,7 @@ private:
                      {}};
         if (info_.choosesStage) point.key.lightOn = infoOf(engine::chooseLighting(point.settings)).name;
         if (choice.method != Method::None) point.key.tilePixels = choice.tilePixels;
-        if (known_.emplace(pointName(point.key), point.key.rangeTolerance).second) // names round ranges
+        if (known_.emplace(pointName(point.key), point.key.rangeTolerance).second) // the name rounds the range
             return group_.points.push_back(std::move(point));
         std::string what = fmt::format("{}, {}", info_.name, infoOf(method).name);
         if (tile) what += fmt::format(" {}", *tile);

@@ -83,7 +83,7 @@ std::string groupTable(const BenchGroup& group) {
     for (const MethodKindInfo& info : methodKindTable())
         if (any([&](const PointKey& key) { return key.method(info.kind).has_value(); })) kinds.push_back(info.kind);
     const bool hasLongColumn = !kinds.empty();
-    // Their columns need room: names of techniques stay whole, and a long title breaks.
+    // Method columns are wide: technique names stay whole, and the long title breaks.
     table.addColumn("technique", Table::Align::Left, hasLongColumn ? Table::Cells::Whole : Table::Cells::Break);
     table.addColumn("culling", Table::Align::Left, Table::Cells::Whole);
     table.addColumn("layout");
@@ -171,7 +171,7 @@ std::string benchTable(const BenchRecord& record) {
     std::string text;
     for (const BenchGroup& group : record.groups) text += groupTable(group);
     for (const ScalingCurve& curve : scalingCurves(record.groups)) {
-        if (!curve.fit || curve.quantity == "evaluations") continue; // these are in the files
+        if (!curve.fit || curve.quantity == "evaluations") continue; // these are only in the files
         const std::string growth = curve.fit->isTrend()
                                        ? fmt::format("time grows as {}^{:.2f}", curve.quantity, curve.fit->exponent)
                                        : fmt::format("no trend of time with {}", curve.quantity);

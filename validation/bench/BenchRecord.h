@@ -5,20 +5,20 @@
 
 namespace tessera::validation {
 
-/// All that a benchmark found, as programs and people read it.
+/// The results of a benchmark, for programs and for people.
 struct BenchRecord {
     std::string machine;
     std::string renderer;
-    std::string driver; ///< the version of OpenGL that it tells, and with it its own
+    std::string driver; ///< OpenGL version string, which includes the driver's version
     std::string commit;
-    std::string command; ///< that measures it again
-    int frames = 0;      ///< timed, of each point
+    std::string command; ///< reproduces the measurement
+    int frames = 0;      ///< timed frames per point
     std::vector<BenchGroup> groups;
     std::vector<SkippedPoint> skipped;
     bool isComplete = false;       ///< every group of the matrix is in it
-    bool isShare = false;          ///< other machines have measured the groups that it lacks
-    std::size_t plannedPoints = 0; ///< of the whole matrix
-    int shards = 1;                ///< that the matrix is divided among
+    bool isShare = false;          ///< other machines measured the missing groups
+    std::size_t plannedPoints = 0; ///< points of the whole matrix
+    int shards = 1;                ///< number of shards of the matrix
 };
 
 /// Since 2 `error`, `pareto`, `range`, `attribution`, `scaling` and `recommendations` are measured; since 3 the lower
@@ -31,7 +31,7 @@ std::string benchJson(const BenchRecord& record);  ///< the `bench` record of th
 std::string benchCsv(const BenchRecord& record);   ///< its points, one per line; RFC 4180
 std::string benchTable(const BenchRecord& record); ///< for people
 
-/// How much is still to be measured and how to go on, in one sentence or two; empty for a complete record.
+/// What remains to be measured and how to continue, in one or two sentences; empty for a complete record.
 std::string unfinishedText(const BenchRecord& record);
 
 } // namespace tessera::validation

@@ -10,7 +10,7 @@ namespace tessera::validation {
 /// missing there.
 Report benchReport(const BenchRecord& record, const std::string& folder);
 
-/// The group in the head of the page: of the first scene, the one with most work.
+/// The group at the head of the page: the first scene's group with the most work.
 const BenchGroup* headlineGroup(const BenchRecord& record);
 
 } // namespace tessera::validation

@@ -9,72 +9,72 @@
 #include "validation/lower_bound/LowerBoundBench.h"
 #include "validation/timing/FrameTimer.h"
 
-/// What a benchmark knows of its points: plain values, as they are measured, kept in files and shown.
+/// Results of a benchmark's points: plain values that are measured, stored in files and displayed.
 namespace tessera::validation {
 
-/// Which point it is, in names of the command line, after defaults are resolved.
+/// The identity of a point, in names of the command line, with defaults resolved.
 struct PointKey {
     std::string technique;
     std::string culling = "none";
     std::optional<int> tilePixels; ///< none without light lists
     std::string layout;            ///< of the G-buffer; "exact" for techniques without one
     double rangeTolerance = 0.0;
-    MethodKeys methods{}; ///< none where the settings of the command line leave a kind nothing to change
-    /// What lights the G-buffer, a name of frame::lightingStageTable(); none of techniques without the choice.
+    MethodKeys methods{}; ///< unset for kinds that would not change the frame
+    /// The stage that lights the G-buffer, from frame::lightingStageTable(); unset for techniques without the choice.
     std::optional<std::string> lightOn{};
 
-    /// Whether compute shaders light the G-buffer: fragment shaders are usual.
+    /// Whether compute shaders, not the usual fragment shaders, light the G-buffer.
     bool isLitByCompute() const { return lightOn == infoOf(frame::LightingStage::Compute).name; }
     std::optional<MethodKey>& method(MethodKind kind) { return methods[std::size_t(kind)]; }
     const std::optional<MethodKey>& method(MethodKind kind) const { return methods[std::size_t(kind)]; }
     bool operator==(const PointKey&) const = default;
 };
 
-/// "tiled_deferred, tile_2.5d 16, packed", with ", compute" behind it where that lights the G-buffer, ", range 0.01"
-/// behind it where lights are ended, and methodTexts().
+/// "tiled_deferred, tile_2.5d 16, packed", followed by ", compute" if compute shaders light the G-buffer, ", range
+/// 0.01" if a range tolerance is set, and methodTexts().
 std::string pointName(const PointKey& key);
 
-/// Counters of a frame's work, beside its times. A figure that could not be measured is none, and `why` says why.
+/// Work counters of a frame. A figure that could not be measured is unset, with the reason in BenchResult::why.
 struct BenchCounters {
     std::optional<std::uint64_t> lightEvaluations;     ///< lights visited, summed over the shaded pixels
     std::optional<std::uint64_t> neededEvaluations;    ///< pairs of a covered pixel and a light that reaches it
-    std::optional<std::uint64_t> neededLitEvaluations; ///< those that also lie in front of the surface
-    std::optional<double> tightness;                   ///< evaluated / needed, of the lights that end somewhere
-    std::optional<double> evaluatedMean;               ///< a covered pixel
+    std::optional<std::uint64_t> neededLitEvaluations; ///< pairs whose light is also in front of the surface
+    std::optional<double> tightness;                   ///< evaluated / needed, over lights with a finite range
+    std::optional<double> evaluatedMean;               ///< mean over covered pixels
     std::optional<std::uint64_t> evaluatedP99, evaluatedMax;
     std::uint64_t listEntries = 0, listBytes = 0;
     std::uint64_t gbufferBytes = 0; ///< written, and read again
-    /// That are lit: each covered pixel, or in forward each that passes the depth test.
+    /// Shaded fragments: the covered pixels, or in forward all fragments that pass the depth test.
     std::optional<std::uint64_t> fragments;
     std::uint64_t triangles = 0, draws = 0;
-    std::uint64_t falseNegatives = 0; ///< needed pairs that were not visited; a fault where it is not 0
+    std::uint64_t falseNegatives = 0; ///< needed pairs that were not visited; an error unless 0
 };
 
-/// A point's picture against the truth of its group. What could not be measured is none, with the reason in
-/// BenchResult::why under "error.<figure>".
+/// The error of a point's image against its group's truth. Figures that could not be measured are unset, with the
+/// reason in BenchResult::why under "error.<figure>".
 struct BenchError {
     std::optional<double> relMse, maxRel, p99Rel, p999Rel, bias, flip;
-    double excluded = 0.0; ///< share of the covered pixels that show other triangles in the truth
+    double excluded = 0.0; ///< fraction of the covered pixels that show other triangles in the truth
 };
 
 struct BenchResult {
     PointKey key;
-    std::optional<std::string> builder, normalTest; ///< of light lists
+    std::optional<std::string> builder, normalTest; ///< of the light lists, if any
     PointTimes times;
     BenchCounters counters;
-    std::optional<double> floorMs, ratioToFloor;       ///< of all needed evaluations
-    std::optional<double> floorLitMs, ratioToLitFloor; ///< of those whose light lies in front of the surface
+    std::optional<double> floorMs, ratioToFloor;       ///< for all needed evaluations
+    std::optional<double> floorLitMs, ratioToLitFloor; ///< for those whose light is in front of the surface
     std::optional<BenchError> error;
-    std::map<std::string, std::string> why; ///< of figures that are none
+    std::map<std::string, std::string> why; ///< by unset figure
 };
 
-/// AttributionLine::cause of a difference that is no error.
+/// AttributionLine::cause of the texture filter, a difference that is not an error.
 inline constexpr const char* kFilterCause = "filter";
-/// Of a point's error by all its causes, and of what products of their errors add to the sum of theirs.
+/// AttributionLine::cause of a point's total error, and of the cross term: what products of errors add to their sum.
 inline constexpr const char *kWholeCause = "whole", *kCrossCause = "cross";
 
-/// How much one cause adds to the error, with all others absent. "filter" is no error but a choice: how far a picture
-/// whose textures are filtered with their smaller levels is from one of the finest level alone.
+/// The error that one cause adds with all others absent. "filter" is not an error but a choice: the difference between
+/// textures filtered with mipmaps and with the finest level alone.
 struct AttributionLine {
     /// "arithmetic", "noise", "area", "environment", "subsurface", "glass", "filter", "shadow", "range", "layout",
     /// "whole" or "cross"
@@ -84,11 +84,11 @@ struct AttributionLine {
     std::optional<double> relMse, p99Rel, bias;
 };
 
-/// A picture that one or more points show, bit for bit, with its error as colours.
+/// An image that one or more points render bit for bit, with its error as a heat map.
 struct BenchPicture {
     std::string name;                ///< the first point's, or the truth's
-    std::vector<std::string> points; ///< names of all that show it; empty for the truth
-    std::string file, heatMapFile;   ///< in the folder of the run; no heat map of the truth
+    std::vector<std::string> points; ///< names of all that render it; empty for the truth
+    std::string file, heatMapFile;   ///< in the run's folder; the truth has no heat map
     std::uint64_t hash = 0;          ///< of its radiance
 };
 
@@ -98,7 +98,7 @@ struct BenchGroup {
     int lights = 0;
     glm::ivec2 sizePixels{0};
     std::size_t triangles = 0;
-    std::string truth, whyTruth; ///< what the errors are against, and why that
+    std::string truth, whyTruth; ///< name of the truth, and why it was chosen
     LowerBoundFigures lowerBound;
     std::vector<BenchResult> results;
     std::vector<AttributionLine> attribution;

@@ -40,7 +40,7 @@ Json identityJson(const RunIdentity& identity, const BenchPlan& plan) {
             {"command", identity.command}, {"groups", planJson(plan)},    {"skipped", skipped}};
 }
 
-/// Shards are measured to be merged: no other run may take the place of one.
+/// Throws InputError if the folder holds another shard: it must stay until the shards are merged.
 void requireNoOtherShard(const std::string& folder, const Json& run) {
     if (!fs::exists(runFile(folder))) return;
     const Json kept = runIn(folder);
@@ -56,7 +56,7 @@ void requireNoOtherShard(const std::string& folder, const Json& run) {
 BenchStore::BenchStore(const std::string& folder, const RunIdentity& identity, const BenchPlan& plan,
                        EarlierRun earlier)
     : folder_(folder), lock_(folder), shard_(identity.shard), shards_(identity.shards) {
-    // What is kept is compared with what is kept: names of files need not be UTF-8, which JSON is.
+    // Compares via JSON text, like stored runs: it replaces bytes of file names that are not UTF-8.
     const std::string text = identityJson(identity, plan).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
     const Json run = Json::parse(text);
     if (earlier == EarlierRun::Resume && fs::exists(runFile(folder))) {

@@ -10,44 +10,43 @@
 
 namespace tessera::validation {
 
-/// A run may be cut into so many shards.
+/// Maximum number of shards of a run.
 inline constexpr int kMostShards = 10000;
 
-/// What a run is. Points may be put beside each other only where all of this but the shard and the command is the same.
+/// The identity of a run. Points of runs are merged only if all of it except shard and command is equal.
 struct RunIdentity {
     std::string machine, renderer;
-    std::string driver; ///< the version of OpenGL that it tells, and with it its own
+    std::string driver; ///< OpenGL version string, which includes the driver's version
     std::string commit;
     std::string settings; ///< the options of the frames
     std::string against;  ///< the requested truth of the errors
     int frames = 0;
-    /// Which part of the groups is measured here: those whose number is shard - 1 modulo shards.
+    /// The part measured here: the groups whose index is shard - 1 modulo shards.
     int shard = 1, shards = 1;
     std::string command;
 };
 
-/// What becomes of an unfinished run that a folder holds when another is to begin there.
+/// What happens to an unfinished run in the folder of a new one.
 enum class EarlierRun : std::uint8_t {
-    Keep,   ///< it stays, and the new one is refused
-    Resume, ///< it goes on; refused where it is another run
-    Replace ///< it goes
+    Keep,   ///< it stays, and the new run is refused
+    Resume, ///< it continues; refused if it is a different run
+    Replace ///< it is deleted
 };
 
-/// What is kept of a run in the folder `parts` of its output, so that it can be killed at any time, resumed, and merged
-/// with its other shards: run.json says what the run is, group-NNN.json how far each group is, beside its pictures.
-/// Files are written whole or not at all. The folder is locked as long as the store lives.
+/// The state of a run, in the folder `parts` of its output, so that the run can be killed at any time, resumed, and
+/// merged with other shards. run.json holds the identity of the run, group-NNN.json the progress of a group; its images
+/// lie beside it. Files are written atomically. The folder is locked for the lifetime of the store.
 class BenchStore {
 public:
-    /// Begins a run in `folder`, which must exist: anew, or where it was left. Throws InputError when an unfinished run
-    /// there is to stay; when the run to go on with is another one, saying in what, or of a scene that has changed
-    /// since; and when files are damaged. Throws std::runtime_error when another process uses the folder, saying which,
-    /// and when nothing can be written.
+    /// Begins or resumes a run in `folder`, which must exist. Throws InputError if an unfinished run there is to stay;
+    /// if the run to resume differs, naming the difference, or its scene has changed; and if files are damaged. Throws
+    /// std::runtime_error if another process, which it names, uses the folder, or if nothing can be written.
     BenchStore(const std::string& folder, const RunIdentity& identity, const BenchPlan& plan, EarlierRun earlier);
 
     const std::string& folder() const { return folder_; }
-    /// Whether a group is measured here at all.
+    /// Whether this shard measures the group.
     bool isOfShard(std::size_t group) const;
-    GroupState load(std::size_t group) const; ///< an empty state where nothing is kept
+    GroupState load(std::size_t group) const; ///< empty if nothing is kept
     void keep(std::size_t group, const GroupState& state) const;
     std::string keepPicture(std::size_t group, const std::string& name, const DisplayImage& image) const;
 
@@ -57,10 +56,10 @@ private:
     int shard_ = 1, shards_ = 1;
 };
 
-/// All that is kept in `folder`, in the order of the plan. Throws InputError where that is no run or damaged.
+/// Reads all results kept in `folder`, in the order of the plan. Throws InputError if it holds no run or is damaged.
 BenchRecord recordIn(const std::string& folder);
 
-/// The bytes of a picture that is kept.
+/// Reads the bytes of a kept image.
 std::vector<std::uint8_t> keptPicture(const std::string& folder, const std::string& file);
 
 } // namespace tessera::validation

@@ -36,7 +36,7 @@ const char* speedClass(double speedup) {
     return speedup >= 1.0 ? "faster" : "slower";
 }
 
-/// How long a bar stands for a relMse: none at 1e-12, whole at 1, logarithmic between, in percent.
+/// The length of a bar for a relMse, in percent: 0 at 1e-12, 100 at 1, logarithmic between.
 double barPercent(double relMse) {
     constexpr double kDecades = 12.0;
     return relMse > 0.0 ? 100.0 * std::clamp(1.0 + std::log10(relMse) / kDecades, 0.0, 1.0) : 0.0;
@@ -68,7 +68,7 @@ std::string answersHtml(const BenchRecord& record) {
     return html + "</tbody>\n</table>\n</section>\n";
 }
 
-/// Stands apart from the errors: it is none.
+/// Separate from the table of errors, since filtering is not an error.
 std::string filterHtml(const AttributionLine& line) {
     return fmt::format(
         "<p class=\"lede\">Not an error: timed frames use mipmaps; errors are measured on the finest level only, "

@@ -4,7 +4,7 @@
 
 #include "validation/bench/BenchRecord.h"
 
-/// Tables of a benchmark's page. HTML; empty where there is nothing to say.
+/// The tables of a benchmark's page, as HTML; empty if there is nothing to show.
 namespace tessera::validation {
 
 /// Each group's recommendation in a row.

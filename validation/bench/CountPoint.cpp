@@ -24,7 +24,7 @@ std::uint64_t forwardFragments(engine::Renderer& renderer, const frame::FrameSet
     return counter.samples();
 }
 
-/// How many lights each covered pixel visits by the view that counts them, ascending.
+/// The number of lights that each covered pixel visits, from the debug view `lights`, ascending.
 std::vector<std::uint64_t> visitedByPixel(engine::Renderer& renderer, const BenchPoint& point) {
     frame::FrameSettings settings = point.settings;
     settings.view = frame::DebugView::Lights;
@@ -37,8 +37,8 @@ std::vector<std::uint64_t> visitedByPixel(engine::Renderer& renderer, const Benc
     return visited;
 }
 
-/// The oracle counts what lies in the depth buffer. Transparent surfaces are lit too, so where there are any its sums
-/// would price too little.
+/// Clears the counts of the oracle, which covers only the depth buffer. Transparent surfaces are lit too, so with them
+/// the counts, and the lower bound from them, would be too small.
 void forgetCounts(BenchResult& result) {
     BenchCounters& counters = result.counters;
     counters.lightEvaluations = counters.neededEvaluations = counters.neededLitEvaluations = {};
@@ -64,12 +64,12 @@ void countPoint(engine::Renderer& renderer, const BenchPoint& point, BenchResult
     counters.fragments = oracle.covered;
     counters.lightEvaluations = oracle.evaluated + oracle.everywhere;
     if (infoOf(point.technique).geometry == engine::Geometry::Shaded) {
-        // Hidden fragments are lit before something nearer covers them.
+        // Forward also lights fragments that a nearer surface covers later.
         counters.fragments = forwardFragments(renderer, point.settings);
         counters.lightEvaluations = *counters.fragments * prepared.lights.texels.size();
     }
     if (infoOf(point.technique).addsByBlending) {
-        // Its pixels visit the lights whose volumes cover them, which only the rasteriser knows.
+        // Pixels visit the lights whose volumes cover them, so only the rasteriser can count them.
         const std::vector<std::uint64_t> visited = visitedByPixel(renderer, point);
         counters.lightEvaluations = std::accumulate(visited.begin(), visited.end(), std::uint64_t(0));
         oracle.evaluated = *counters.lightEvaluations - std::min(*counters.lightEvaluations, oracle.everywhere);

@@ -5,7 +5,7 @@
 
 namespace tessera::validation {
 
-/// Fills the counters of a point's result and how its lists are built, by the oracle and by drawing. Throws what
+/// Fills in a result's counters, list builder and normal test, from the light oracle and rendered frames. Throws what
 /// drawing throws.
 void countPoint(engine::Renderer& renderer, const BenchPoint& point, BenchResult& result);
 

@@ -44,7 +44,7 @@ std::string ownName() {
     return fmt::format("process {} on {}", ::getpid(), host.data());
 }
 
-/// Whether the name still leads to the open file: its last holder may have removed it before letting go.
+/// Whether the name still refers to the open file: its last holder may have deleted it before releasing the lock.
 bool isFileNamed(const std::string& name, int descriptor) {
     struct stat opened {
     }, named{};
@@ -52,10 +52,10 @@ bool isFileNamed(const std::string& name, int descriptor) {
            opened.st_ino == named.st_ino;
 }
 
-/// An open file of that name with the lock on it.
+/// Opens and locks the file; returns its descriptor.
 int lockedFile(const std::string& folder, const std::string& file) {
     for (;;) {
-        // Not through a link: what it leads to is someone's, and the lock is written and deleted.
+        // Follows no link: the lock file is written and deleted, and a link's target may be a user's file.
         const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (descriptor < 0) fail(folder, errno);
         if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
@@ -77,7 +77,7 @@ int lockedFile(const std::string& folder, const std::string& file) {
 FolderLock::FolderLock(const std::string& folder)
     : file_((std::filesystem::path(folder) / "bench.lock").string()), descriptor_(lockedFile(folder, file_)) {
     const std::string name = ownName();
-    // Only for people: without it the lock holds all the same.
+    // Informational: the lock holds without the name.
     if (::ftruncate(descriptor_, 0) == 0 && ::pwrite(descriptor_, name.data(), name.size(), 0) < 0) return;
 }
 

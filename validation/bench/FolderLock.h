@@ -3,13 +3,13 @@
 
 namespace tessera::validation {
 
-/// Holds a folder against other processes as long as it lives: an exclusive flock() on the file bench.lock in it, which
-/// says who holds it. The kernel releases the lock however the process ends, so that a file left behind by a killed
-/// one holds nothing. Where there is no flock() nothing is held.
+/// Locks a folder against other processes during its lifetime: an exclusive flock() on its file bench.lock, which names
+/// the holder. The kernel releases the lock however the process ends, so a file left by a killed process does not lock.
+/// Does nothing on systems without flock().
 class FolderLock {
 public:
-    /// `folder` must exist. Throws std::runtime_error that names the holder when another process, or another lock of
-    /// this one, holds it, and when no file can be made there.
+    /// `folder` must exist. Throws std::runtime_error if another process, or another lock of this one, holds it, naming
+    /// the holder, and if the file cannot be created.
     explicit FolderLock(const std::string& folder);
     FolderLock(FolderLock&& other) noexcept;
     FolderLock& operator=(FolderLock&&) = delete;

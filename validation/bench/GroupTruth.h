@@ -11,47 +11,46 @@
 
 namespace tessera::validation {
 
-/// What errors are measured against: the double-precision renderer, or the technique forward with every fp32 channel,
-/// no range tolerance and traced shadows.
+/// The truth for errors: the double-precision renderer, or the technique forward with every channel in fp32, no range
+/// tolerance and traced shadows.
 enum class BenchTruth : std::uint8_t { Reference, Forward };
 
-/// Pairs of a point and a light beyond which the reference takes minutes, not seconds: on 2 cores it does some 10^7 a
-/// second.
+/// Number of point-light pairs above which the reference takes minutes, not seconds: 2 cores do some 10^7 per second.
 inline constexpr double kAffordablePairs = 1.5e9;
 
-/// What was asked for; else the reference where it takes one sample of the final view and is affordable. `why` says why
-/// it is not, and is empty where it is.
+/// The requested truth; else the reference if the view is final and the cost affordable. `why` is the reason for not
+/// choosing the reference, else empty.
 BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, double lightsAPixel,
                        std::string& why);
 
-/// Settings with every fp32 channel, every light, no range tolerance, traced shadows and this filter: what the truth is
-/// made with, and what one cause of error at a time is put into.
+/// Settings of the truth: every channel in fp32, every light, no range tolerance, traced shadows and this filter.
+/// Attribution enables one cause of error at a time in them.
 frame::FrameSettings exactSettings(frame::FrameSettings settings, frame::TextureFilter filter);
 
-/// Rays of forward, where it is the truth, to a light with a size. Their noise is a quarter of that of 16 rays or less:
-/// the root mean square of a share's error is 0.003 in a penumbra.
+/// Minimum rays per light with a size where forward is the truth. Their noise is at most a quarter of that of 16 rays:
+/// the RMS error of a light's visible fraction is 0.003 in a penumbra.
 inline constexpr int kTruthShadowSamples = 256;
 
-/// The truth of one group, made once, and points held against it.
+/// The truth of one group, rendered once, and the errors of points against it.
 class GroupTruth {
 public:
-    /// `settings` are those of the group, whose lights cast the truth's shadows. Errors are of frames with `filter`,
-    /// the reference's picture too; the noise of rays is an error. `rowDone` as referencePicture().
+    /// `settings` are the group's, including the lights that cast the truth's shadows. Points and truth are both
+    /// rendered with `filter`; the noise of rays counts as error. `rowDone` as in referencePicture().
     GroupTruth(engine::Renderer& renderer, BenchTruth truth, const frame::FrameSettings& settings,
                frame::TextureFilter filter, const std::function<void()>& rowDone);
 
-    /// The point's picture, as it is compared.
+    /// Renders a point for comparison: with the truth's filter, without display mapping.
     Picture pictureOf(engine::Technique technique, const frame::FrameSettings& settings) const;
-    /// Its error; what could not be measured is none with the reason in `why` under "error.<figure>".
+    /// The error of an image. Figures that could not be measured are unset, with the reason in `why` under
+    /// "error.<figure>".
     BenchError errorOf(const Picture& picture, std::map<std::string, std::string>& why) const;
 
-    /// exactSettings() of the group, with rays enough for a truth.
+    /// exactSettings() of the group, with at least kTruthShadowSamples rays.
     const frame::FrameSettings& settings() const { return settings_; }
     const Picture& picture() const { return picture_; }
-    /// Of the pictures that the truth allows the one nearest to `shown`.
+    /// The image nearest to `shown` among those that the truth allows.
     Picture pictureFor(const Picture& shown) const;
-    /// The truth of another scene or other settings that show the same triangles: of the pictures that it allows the
-    /// one nearest to `shown`.
+    /// The same, for the truth of another scene or other settings that show the same triangles.
     Picture pictureOn(engine::Renderer& renderer, const frame::FrameSettings& settings, const Picture& shown) const;
     const std::vector<std::uint8_t>& excluded() const { return excluded_; }
     frame::TextureFilter filter() const { return filter_; }

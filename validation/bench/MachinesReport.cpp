@@ -20,7 +20,7 @@ std::string machineTitle(std::size_t machine) {
     return fmt::format("Machine {}", machine + 1);
 }
 
-/// Which machines there are, with links to the page of each.
+/// A table of the machines, with links to their pages.
 std::string machinesHtml(std::span<const MachineBench> machines) {
     std::string html = "<section id=\"machines\">\n<h2>The machines</h2>\n<table>\n<thead><tr>";
     for (const char* title : {"Machine", "Processor and system", "Renderer", "OpenGL", "Points", "What to take"})

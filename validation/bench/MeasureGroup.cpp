@@ -20,12 +20,12 @@ namespace tessera::validation {
 
 namespace {
 
-// What things take beside one frame of a point, for the time left that progress shows: estimates.
+// Estimated costs in frames of a point, for the remaining time that progress shows.
 constexpr std::size_t kStepsOfAPoint = 12; // its profiled frames, the oracle and its picture
 constexpr std::size_t kStepsOfTheTruth = 20;
 constexpr std::size_t kStepsOfTheCauses = 12;
 
-/// FNV-1a of 64 bits (Fowler, Noll, Vo), over the words of the radiance.
+/// 64-bit FNV-1a hash (Fowler, Noll, Vo) of the radiance.
 std::uint64_t hashOf(const Picture& picture) {
     std::uint64_t hash = 14695981039346656037ull;
     for (const float value : picture.rgba) {
@@ -40,7 +40,7 @@ std::uint64_t hashOf(const Picture& picture) {
     return hash;
 }
 
-/// One group being measured.
+/// The measurement of one group.
 class Measurement {
 public:
     Measurement(gpu::Context& context, const scenes::Scene& scene, const PlannedGroup& planned,
@@ -83,10 +83,10 @@ public:
     }
 
 private:
-    /// A renderer keeps one atlas of shadow maps from frame to frame. Points with other maps would draw over its faces,
-    /// and their times would depend on which others there are, so each kind of map has a renderer. So has each way to
-    /// spread light where the points differ in it; that of these spreads it in every frame, else what is compared would
-    /// be done before the first one.
+    /// The renderer of a point. A renderer keeps one shadow atlas between frames: points with other maps would
+    /// overwrite its faces, and their times would depend on each other, so each kind of map has its own renderer. So
+    /// does each subsurface diffusion method if the points differ in it; its renderer diffuses in every frame, else the
+    /// compared work would be done once before the first one.
     engine::Renderer& rendererOf(const BenchPoint& point, const scenes::Scene& scene) {
         const std::optional<MethodKey>&shadows = point.key.method(MethodKind::Shadows),
               &subsurface = point.key.method(MethodKind::Subsurface);
@@ -102,7 +102,7 @@ private:
         return *renderer;
     }
 
-    /// That the reference visits: for light that spreads, those of each of its points on the surface.
+    /// Lights per pixel that the reference evaluates; with subsurface diffusion, at each of its surface points.
     double lightsAPixel() const {
         const bool spreads = scenes::anySpreads(renderer_.scene(), planned_.settings.subsurface);
         return double(planned_.lights) * (spreads ? double(reference::Settings{}.diffusionPoints) : 1.0);
@@ -146,8 +146,8 @@ private:
         return result;
     }
 
-    /// The truth as a display shows it. The reference draws no blurred backdrop: it stands before that of forward, so
-    /// that what differs in the pictures is what is compared.
+    /// The truth after display mapping. The reference renders no blurred backdrop, so forward's is put behind it: the
+    /// images then differ only where they are compared.
     DisplayImage shown(const GroupTruth& truth) const {
         Picture picture = truth.picture();
         if (group_.truth == "reference" && planned_.settings.environment.backdrop == frame::Backdrop::Blurred) {
@@ -175,7 +175,7 @@ private:
                 result.ratioToLitFloor, "ratioToLitFloor");
     }
 
-    /// Most points of a group show one picture, bit for bit: it is kept once.
+    /// Keeps the image of a point. Most points of a group render the same image, bit for bit: it is stored once.
     void keepPicture(std::size_t index, const Picture& picture, const GroupTruth& truth) {
         const BenchPoint& point = planned_.points[index];
         const std::string name = pointName(point.key);
@@ -203,7 +203,7 @@ private:
     BenchGroup& group_;
     engine::Renderer renderer_;
     bool variesSubsurface_ = false;
-    std::map<std::string, std::unique_ptr<engine::Renderer>> otherRenderers_; ///< by what they keep
+    std::map<std::string, std::unique_ptr<engine::Renderer>> otherRenderers_; ///< by shadow maps and diffusion method
     LowerBoundBench lowerBound_;
     std::vector<TimedPoint> timed_;
     std::vector<std::vector<double>> timesMs_; ///< by kind of frame

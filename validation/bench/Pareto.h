@@ -5,11 +5,11 @@
 
 namespace tessera::validation {
 
-/// The error that results are ranked by; none where it is not known.
+/// The error that results are ranked by; unset if unknown.
 std::optional<double> relMseOf(const BenchResult& result);
 
-/// By result: whether no other of the group is at least as fast and as exact, and better in one of the two. Of results
-/// that are equal in both, all are on the front. None where the error is not known; such results dominate nothing.
+/// Per result, whether it is on the Pareto front: no other of the group is at least as fast and as exact, and better in
+/// one of the two. Equal results are all on the front. Unset if the error is unknown; such results dominate nothing.
 std::vector<std::optional<bool>> paretoFront(const BenchGroup& group);
 
 } // namespace tessera::validation

@@ -15,9 +15,9 @@ namespace tessera::validation {
 
 namespace {
 
-/// Two pictures whose errors differ by less are equally exact: rounding alone differs by that much between GPUs.
+/// Ratio of errors up to which two images are equally exact: rounding alone differs by that much between GPUs.
 constexpr double kAsExact = 2.0;
-/// What two times may differ by and still be called the same: medians of 20 frames repeat to within some percent.
+/// Ratio of times up to which two are called the same: medians of 20 frames repeat to within a few percent.
 constexpr double kSameSpeed = 1.05;
 
 constexpr std::string_view kBusy = "the machine was busy", kNothingToCull = "nothing to cull";
@@ -26,9 +26,9 @@ double timeOf(const BenchResult& result) {
     return result.times.cpuMs.median;
 }
 
-/// Whether single frames took far longer than most, as on a machine that is busy with something else.
+/// Whether single frames took far longer than most, as on a busy machine.
 bool isDisturbed(const BenchResult& result) {
-    constexpr double kSteady = 2.0; // p95 over median; of frames alone on a machine it is below 1.3
+    constexpr double kSteady = 2.0; // p95 over median; below 1.3 on an otherwise idle machine
     return result.times.cpuMs.p95 > kSteady * timeOf(result);
 }
 
@@ -41,8 +41,7 @@ const BenchResult* fastest(const BenchGroup& group, Condition&& holds) {
     return best;
 }
 
-/// Forward without a range tolerance, else with the smallest that it was measured with; of several ways to find shadows
-/// or to scatter light below surfaces the most exact one.
+/// The forward result with the smallest range tolerance; among several methods, the one with the smallest error.
 const BenchResult* forwardOf(const BenchGroup& group) {
     const BenchResult* found = nullptr;
     for (const BenchResult& result : group.results) {
@@ -60,8 +59,8 @@ bool isAcceptable(const BenchResult& result) {
     return relMse && *relMse <= kAcceptableRelMse;
 }
 
-/// The fastest of the most exact ones that the times do not tell from `fast`, among those with an acceptable error. A
-/// point that is faster than one of these belongs to them, however little its own times spread.
+/// The fastest of the most exact acceptable results whose times are indistinguishable from `fast`. Results faster than
+/// one of these count too, however small the spread of their times.
 const BenchResult* mostExactAsFast(const BenchGroup& group, const BenchResult& fast) {
     double slowestMs = timeOf(fast);
     for (const BenchResult& result : group.results)
@@ -124,7 +123,7 @@ std::string speedText(double speedup) {
 
 namespace {
 
-/// With forward's methods where the result has others.
+/// Speed relative to forward, whose methods are named where they differ.
 std::string againstForward(const BenchResult& result, const BenchResult& baseline) {
     std::string how;
     const auto add = [&how](const std::string& text) { how += (how.empty() ? " (" : ", ") + text; };

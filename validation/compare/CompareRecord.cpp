@@ -122,7 +122,7 @@ Json lostJson(const LostGeometry& lost) {
 
 using Row = std::vector<std::string>;
 
-/// Equal bytes have no noise; what could not be compared has no figure.
+/// "equal" for identical bytes, whose PSNR is infinite; a dash if the pair could not be compared.
 std::string psnrText(const ErrorFigures& figures) {
     return figures.flip == 0.0 && !figures.psnr ? "equal" : decibelText(figures.psnr);
 }
@@ -188,7 +188,7 @@ std::string compareJson(const CompareRecord& record) {
                                {"integral", record.spreadLight->integral},
                                {"facingAway", record.spreadLight->facingAway}};
     if (record.rangeTruncation) json["rangeTruncation"] = rangeTruncationJson(*record.rangeTruncation);
-    // A file's name need not be UTF-8, and must not keep the record from being written.
+    // File names need not be UTF-8: replaces invalid bytes, so that the record is written all the same.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -11,19 +11,19 @@
 
 namespace tessera::validation {
 
-/// What the encoding of a G-buffer channel, or of two that belong together, adds to a pair's error.
+/// The error that the encoding of a G-buffer channel, or of two coupled ones, adds to a pair.
 struct ChannelShare {
     std::string channel;  ///< "albedo", "microsurface and tangent"
     double relMseWithout; ///< the pair's relMse when this alone is stored in fp32
-    double share;         ///< the pair's relMse minus that
+    double share;         ///< the pair's relMse minus relMseWithout
 };
 
-/// What the reference knows of light that spreads, as means over the pixels that see it: a picture that spreads light
-/// along the surface must differ where these do from a plane's.
+/// Subsurface diffusion in the reference, as means over the pixels that show it. Images with diffusion along the
+/// surface must differ from it where these figures deviate from a plane's.
 struct SpreadLight {
     std::size_t pixels = 0;
-    double integral = 1.0;   ///< of the profile over the surface; the reference divides by it. 1 on a plane
-    double facingAway = 0.0; ///< share of it where the surface faces away, as across thin parts
+    double integral = 1.0;   ///< integral of the profile over the surface, by which the reference divides; 1 on a plane
+    double facingAway = 0.0; ///< fraction of it where the surface faces away, as across thin parts
 };
 
 /// One comparison: picture a against the truth b.
@@ -33,8 +33,8 @@ struct ComparePair {
     Tolerance tolerance;
     Verdict verdict;
     std::vector<ChannelShare> channels = {};   ///< empty where no channel is packed
-    std::string culling = {};                  ///< how a found its lights; empty where it visits all
-    std::optional<ShadowFigures> shadows = {}; ///< against the reference, of a picture with shadows
+    std::string culling = {};                  ///< culling method of a; empty if it visits all lights
+    std::optional<ShadowFigures> shadows = {}; ///< against the reference, for traced shadows
 };
 
 /// A technique that was not compared.
@@ -50,20 +50,20 @@ struct RangeTruncation {
     ErrorFigures figures; ///< of the final view, whatever view is compared
 };
 
-/// What `tessera compare` found.
+/// The results of `tessera compare`.
 struct CompareRecord {
     std::string scene;
     int width = 0, height = 0;
     std::string renderer; ///< as GL reports it
     std::vector<ComparePair> pairs;
-    int samples = 1;                     ///< of a pixel, as the driver gives them
-    bool excludesPixels = false;         ///< those that show different triangles were left out
-    std::vector<LostGeometry> lost = {}; ///< the part of it that rounding does not explain, by either filter
+    int samples = 1;                     ///< per pixel, as the driver provides them
+    bool excludesPixels = false;         ///< pixels that show different triangles were left out
+    std::vector<LostGeometry> lost = {}; ///< differences that rounding does not explain, with either filter
     std::vector<LeftOutTechnique> leftOut = {};
     std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set
-    std::optional<SpreadLight> spreadLight = {};         ///< against the reference, where light spreads
+    std::optional<SpreadLight> spreadLight = {};         ///< against the reference, if light is diffused
 
-    /// There is a pair, and none misses anything. One that is not judged does not.
+    /// Whether there is a pair and every verdict is ok. Without a tolerance only the requirements of all pairs count.
     bool ok() const;
 };
 

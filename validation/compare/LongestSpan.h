@@ -5,8 +5,8 @@
 
 namespace tessera::validation {
 
-/// Names the triangle that casts shadows, or the light, which spans most metres from the origin: rounding of shadow
-/// rays grows with it. "triangle 12 of mesh 'wall' at node 'far', which reaches 1e+06 m from the origin"; empty where
+/// Names the shadow-casting triangle or the light that extends farthest from the origin, since rounding of shadow rays
+/// grows with the distance: "triangle 12 of mesh 'wall' at node 'far', which reaches 1e+06 m from the origin"; empty if
 /// there is neither.
 std::string longestSpan(const scenes::Scene& scene);
 

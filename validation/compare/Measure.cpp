@@ -33,7 +33,7 @@ void drawProfiled(engine::Renderer& renderer, engine::Technique technique, const
     times->totalMs.push_back(total);
 }
 
-/// What the light lists of the frame as planned took.
+/// Fills in the bytes and entries of the frame's light lists.
 void fillInLists(graph::Plan& plan, engine::Renderer& renderer, engine::Technique technique,
                  const frame::FrameSettings& settings) {
     renderer.draw(technique, settings);

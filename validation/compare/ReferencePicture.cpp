@@ -23,7 +23,7 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.shadows = settings.shadows;
     result.softensTerminators = settings.shadowTerminator == frame::ShadowTerminator::Softened;
     result.subsurface = settings.subsurface;
-    // The noise of rays; maps are allowed none.
+    // Ray noise is tolerated for traced shadows only.
     result.shadowSamples = infoOf(settings.shadowFilter).usesMaps ? 0 : settings.shadowSamples;
     result.environmentLights = settings.environment.light != frame::EnvironmentLight::Off;
     result.environmentCompensates = settings.environment.compensates;
@@ -42,9 +42,9 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     result.rangeTolerance = settings.rangeTolerance;
     result.filtering =
         settings.filter == frame::TextureFilter::Exact ? reference::Filtering::Exact : reference::Filtering::Hardware;
-    // The product takes the reflectance of rough glass from a table of lobes. The root of the mean square of the
-    // table's error is up to 1e-4 of the light, and its mean 6e-5: where an eighth is transmitted, 8e-4 and 4.7e-4 of
-    // that, which the tolerances of relMse, 1e-6, and of the bias, 5e-4, hold.
+    // The product reads the reflectance of rough glass from a table of lobes, whose RMS error is up to 1e-4 of the
+    // light and whose mean error 6e-5. At a transmittance of 1/8 these are 8e-4 and 4.7e-4 of the transmitted light,
+    // within the tolerances of relMse, 1e-6, and of the bias, 5e-4.
     result.leastRoughTransmittance = 0.125;
     return result;
 }
@@ -62,7 +62,7 @@ void requireReferenceTakes(const frame::FrameSettings& settings) {
 
 namespace {
 
-/// Light that spreads over a surface enters at points that are found while it is lit, too late to ask for.
+/// Rejects diffusion in hooked materials: entry points are found during lighting, too late to run the hook there.
 void requireNoneSpreads(const scenes::Scene& scene, const scenes::SubsurfaceRequest& subsurface) {
     for (const int place : scene.hook->materials) {
         const scenes::Material& material = scene.materials[std::size_t(place)];
@@ -106,7 +106,7 @@ ReferencePicture pictureOf(const scenes::Scene& scene, const frame::FrameSetting
 
 ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
                                   const std::function<void()>& rowDone, Leeway leeway) {
-    // Vertices that a renderer has moved already are a scene like others.
+    // A scene whose vertices a renderer has already moved is an ordinary scene.
     if (scene.hook && (scene.hook->changesSurfaces || scene.hook->movesVertices))
         throw InputError(
             fmt::format("{}: the reference runs no shaders, and so no hook without a renderer; take '{}' out",
@@ -193,7 +193,7 @@ Picture ReferencePicture::weighted(Picture truth, const Picture& shown) const {
 
 namespace {
 
-/// Whether a light that shines is one: is(its place).
+/// Whether is(index) holds for a light that shines.
 template <typename Is>
 bool anyShining(const scenes::Scene& scene, const frame::FrameSettings& settings, const Is& is) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
@@ -201,7 +201,7 @@ bool anyShining(const scenes::Scene& scene, const frame::FrameSettings& settings
     return false;
 }
 
-/// Whether lights cast shadows, all or those with a size.
+/// Whether any light, or with `ofSize` any light with a size, casts shadows.
 bool hasShadows(const scenes::Scene& scene, const frame::FrameSettings& settings, bool ofSize) {
     return scenes::hasCasters(scene) && anyShining(scene, settings, [&](std::size_t i) {
                return (!ofSize || scenes::hasSize(scene.lights[i])) && scenes::castsShadow(scene, i, settings.shadows);
@@ -253,7 +253,7 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
             "light spread in texture space is an approximation: its error is reported, and held to nothing";
         return tolerance;
     }
-    // The numbers of a hook are those of textures: in fp32, with slopes of their own.
+    // Hook outputs vary over a surface in fp32, as textures do.
     const bool isTextured = frame::materialFeatures(scene).textures() || (scene.hook && scene.hook->changesSurfaces);
     if (!isTextured) {
         tolerance.p999Rel = 3e-4;
@@ -287,8 +287,8 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
         return scenes::isTransmissive(material) && scenes::isAnisotropic(material);
     };
     if (isAny(passesByTwoAlphas)) {
-        // By numbers, for all alphas from 0.01 on and an F0 of 0.04: relMse 2.1e-5, bias 2.8e-3, and 1.2e-2 of the
-        // light.
+        // Computed numerically for all alphas from 0.01 and an F0 of 0.04: relMse 2.1e-5, bias 2.8e-3, and 1.2e-2 of
+        // the light.
         const auto reflectsMuch = [](const scenes::Material& material) {
             return scenes::isTransmissive(material) && scenes::isAnisotropic(material) &&
                    (material.metallic > 0.0f || !(material.ior >= 1.0f && material.ior <= 2.0f));

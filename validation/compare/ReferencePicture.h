@@ -10,14 +10,14 @@
 #include "validation/figures/Tolerance.h"
 #include "validation/reference/Render.h"
 
-/// The reference renderer (validation/reference) beside the product: the same frame, and what a technique is held to
-/// there.
+/// The reference renderer (validation/reference) applied to the product's frames, and the tolerances of techniques
+/// against it.
 namespace tessera::validation {
 
 /// Throws InputError unless the reference renders frames of these settings: the final view, one sample per pixel.
 void requireReferenceTakes(const frame::FrameSettings& settings);
 
-/// A frame's settings as the reference takes them.
+/// Converts a frame's settings to the reference's.
 reference::Settings referenceSettings(const scenes::Scene& scene, const frame::FrameSettings& settings);
 
 struct ReferencePicture {
@@ -25,48 +25,48 @@ struct ReferencePicture {
     std::vector<reference::Ids> ids;
     std::vector<std::vector<reference::Span>> alternatives; ///< as in reference::Rendered
 
-    /// Of the pictures that the definition allows the one nearest to `shown`, which is of the same size.
+    /// The image nearest to `shown`, of the same size, among those that the definition allows.
     Picture nearestTo(const Picture& shown) const;
 
-    /// As in reference::Rendered: below 1 where rough glass transmits so little that the error of the table of lobes is
-    /// a large part of it, as far as that light is of the pixel's.
+    /// As in reference::Rendered: below 1 where rough glass transmits so little that the lobe table's error is a large
+    /// part of it, in proportion to that light's fraction of the pixel.
     std::vector<glm::vec3> errorWeights;
 
-    /// The picture that differs from `shown` by the error of `truth` times its weight. Tolerances hold for it.
+    /// An image that differs from `shown` by the error of `truth` times errorWeights. Tolerances apply to it.
     Picture weighted(Picture truth, const Picture& shown) const;
 
     std::vector<std::uint8_t> undecidedShadows; ///< as in reference::Rendered
     std::vector<reference::Noise> shadowNoise;  ///< as in reference::Rendered
 
     std::vector<reference::Diffusion::Answer> spread; ///< as in reference::Rendered
-    std::vector<reference::Estimate> surroundings;    ///< the same
-    std::vector<reference::Estimate> areaLights;      ///< the same
+    std::vector<reference::Estimate> surroundings;    ///< as in reference::Rendered
+    std::vector<reference::Estimate> areaLights;      ///< as in reference::Rendered
 
-    /// What is known of the shadows of `shown` against the picture. `excluded` as errorFigures() takes it.
+    /// Shadow figures of `shown` against the reference's image. `excluded` is as in errorFigures().
     ShadowFigures shadowFigures(const Picture& shown, std::span<const std::uint8_t> excluded) const;
 };
 
-/// What else than the picture is found: nothing; the alternatives, which take up to fifteen times as long; or among
-/// these also what the noise of traced rays to lights with a size may show.
+/// Alternatives to find besides the image: none; those that the definition allows, which take up to fifteen times as
+/// long; or also those that the noise of traced rays to lights with a size allows.
 enum class Leeway : std::uint8_t { None, Definition, DefinitionAndNoise };
 
-/// What a frame shows by definition, with the filter of the settings. `rowDone` is called once a row, from any thread.
-/// Throws InputError when the settings name what the scene lacks, requireReferenceTakes() does, or the scene has a
-/// hook.
+/// Renders a frame by definition, with the texture filter of the settings. `rowDone` is called once per row, from any
+/// thread. Throws InputError if the settings name something that the scene lacks, if requireReferenceTakes() throws, or
+/// if the scene has a hook.
 ReferencePicture referencePicture(
     const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
     Leeway leeway = Leeway::DefinitionAndNoise);
 
-/// The same of a renderer's scene at the time of the settings, with what its hook moves and changes, which the renderer
-/// runs. Where vertices move, the latest frame is gone.
+/// The same for a renderer's scene at the time of the settings, with its hook, which the renderer runs. Moving vertices
+/// invalidates the latest frame.
 ReferencePicture referencePicture(
     engine::Renderer& renderer, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
     Leeway leeway = Leeway::DefinitionAndNoise);
 
-/// Whether a frame has shadows, and those traced, so that ReferencePicture::shadowFigures() tells something.
+/// Whether a frame has traced shadows, so that ReferencePicture::shadowFigures() is meaningful.
 bool hasTracedShadows(const scenes::Scene& scene, const frame::FrameSettings& settings);
 
-/// What a technique with every G-buffer channel in fp32 is held to against the reference, with the reason.
+/// The tolerance, with its reason, of a technique with every G-buffer channel in fp32 against the reference.
 Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSettings& settings);
 
 } // namespace tessera::validation

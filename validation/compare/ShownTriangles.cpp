@@ -16,11 +16,11 @@ namespace {
 using reference::Ids;
 using reference::Layers;
 
-/// Rays a pixel: the centre, then eight at the whole of kEdgeShiftPixels and eight at a quarter of it, which slivers
-/// thinner than the whole hold.
+/// Rays per pixel: the centre, eight at a distance of kEdgeShiftPixels, and eight at a quarter of it, which hit slivers
+/// thinner than kEdgeShiftPixels.
 constexpr std::size_t kRays = 17;
 
-/// An id as a picture of floats holds it, which is exact below 2^24; one that is none of the scene's is told as such.
+/// An id read from a float image, which is exact below 2^24. Values that cannot be an id become ~0.
 std::uint32_t drawnId(float id) {
     constexpr std::uint32_t kNoId = ~0u;
     return id >= 0.0f && id < 0x1p32f ? std::uint32_t(id) : kNoId;
@@ -47,7 +47,7 @@ std::array<Layers, kRays> layersAround(const reference::Probe& probe, const glm:
     return layers;
 }
 
-/// The ids of both pictures, rows from the top.
+/// The ids of both images, rows from the top.
 struct IdPictures {
     glm::ivec2 size;
     const std::vector<Ids>& shown; ///< by the GPU
@@ -71,7 +71,7 @@ bool isAmong(const Ids& shown, const std::vector<Layers::Other>& others) {
     return std::any_of(others.begin(), others.end(), [&](const Layers::Other& other) { return other.ids == shown; });
 }
 
-/// Several triangles lie in one place, and the GPU shows another than the reference: that can be compared.
+/// Whether the GPU shows another of several coincident triangles than the reference: such a pixel can be compared.
 bool isCoincident(const Ids& shown, const Layers& centre) {
     return std::any_of(centre.others.begin(), centre.others.end(),
                        [&](const Layers::Other& other) { return other.isCoincident && other.ids == shown; });
@@ -115,10 +115,10 @@ std::vector<Instance> instancesOf(const scenes::Scene& scene) {
     return instances;
 }
 
-/// What a pixel that no rounding explains lost. Instances count from 1 here, 0 is an unknown one.
+/// A loss at a pixel that rounding does not explain. Instances count from 1 here, 0 is unknown.
 using Loss = std::pair<LostKind, std::uint32_t>;
 
-/// Transparent instances: those that alone explain the sum by their absence, else the first one met.
+/// The transparent instance whose absence alone explains the sum, else the first one on the ray.
 std::uint32_t missingTransparent(const Layers& truth, std::uint32_t shownSum, LostKind& kind) {
     for (const Layers::Layer& layer : truth.transparent) {
         std::uint32_t without = 0;
@@ -174,7 +174,7 @@ ShownTriangles shownTriangles(engine::Renderer& renderer, const frame::FrameSett
     const std::vector<Instance> instances = instancesOf(renderer.scene());
     ShownTriangles result;
     result.excluded.resize(ids.size());
-    std::vector<std::size_t> open; // pixels that are to be explained
+    std::vector<std::size_t> open; // pixels to explain
     for (std::size_t i = 0; i < ids.size(); ++i) {
         if (shown[i] != truth[i]) open.push_back(i);
     }

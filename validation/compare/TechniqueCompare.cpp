@@ -21,11 +21,11 @@ namespace {
 
 using engine::Technique;
 
-/// A picture that is compared with the truth.
+/// An image to compare with the truth.
 struct Asked {
     Technique technique;
     std::string name;
-    frame::FrameSettings settings; ///< the request's, but for the layout
+    frame::FrameSettings settings; ///< the request's, except for the layout
 };
 
 std::vector<Asked> askedPictures(const CompareRequest& request) {
@@ -49,7 +49,7 @@ bool isReference(const CompareRequest& request) {
     return std::holds_alternative<Reference>(request.against);
 }
 
-/// What pictures are measured against.
+/// The truth that images are measured against.
 struct TruthPicture {
     NamedPicture own;
     std::optional<ReferencePicture> reference;
@@ -62,7 +62,7 @@ struct TruthPicture {
         const PairTruth truth = of(shown);
         return radianceFigures(shown, truth.picture, truth.excluded);
     }
-    /// Against the reference errors count by their weights.
+    /// Against the reference, errors are multiplied by its errorWeights.
     Verdict verdictOf(const Picture& shown, const Tolerance& tolerance) const {
         PairTruth truth = of(shown);
         if (reference) truth.picture = reference->weighted(std::move(truth.picture), shown);
@@ -103,7 +103,7 @@ RangeTruncation truncationOf(engine::Renderer& renderer, const CompareRequest& r
     return rangeTruncation(renderer, technique, settingsTakenBy(technique, request.settings));
 }
 
-/// How the frame just drawn found its lights.
+/// The culling method of the frame just drawn; empty if it visits all lights.
 std::string cullingText(const engine::Renderer& renderer) {
     const culling::Choice choice = renderer.downloadLists().culling;
     if (choice.method == culling::Method::None) return {};
@@ -115,18 +115,18 @@ bool isPacked(const frame::GBufferLayout& layout) {
     return !(layout == frame::exactLayout().layout);
 }
 
-/// How a picture of the technique is packed: one that has no G-buffer is not.
+/// The packing of a technique's image; exact without a G-buffer.
 const frame::GBufferLayout& packingOf(Technique technique, const frame::GBufferLayout& layout) {
     return infoOf(technique).usesGBuffer() ? layout : frame::exactLayout().layout;
 }
 
-/// The same of the truth.
+/// The same for the truth.
 const frame::GBufferLayout& packingOfTruth(const CompareRequest& request) {
     const auto* const truth = std::get_if<Technique>(&request.against);
     return truth ? packingOf(*truth, request.settings.layout) : frame::exactLayout().layout;
 }
 
-/// The packing that sets a picture apart from the truth, the coarser of both; exact where both are packed alike.
+/// The packing that separates an image from the truth: the coarser of both, or exact if both are packed alike.
 const frame::GBufferLayout& packingApart(const CompareRequest& request, Technique technique,
                                          const frame::GBufferLayout& layout) {
     const frame::GBufferLayout &own = packingOf(technique, layout), &truth = packingOfTruth(request);
@@ -134,7 +134,7 @@ const frame::GBufferLayout& packingApart(const CompareRequest& request, Techniqu
     return frame::promiseOf(own).relMse < frame::promiseOf(truth).relMse ? truth : own;
 }
 
-/// The place among the pictures made so far of one from a G-buffer that equals `picture` in every bit.
+/// The index of an earlier G-buffer image with the same layout that is bit-identical to `picture`.
 std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<const Asked> asked, const Asked& one,
                                         const Picture& picture) {
     for (std::size_t i = 0; i < result.pictures.size(); ++i)
@@ -144,8 +144,8 @@ std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<c
     return {};
 }
 
-/// Which stored channels are put into fp32 together. An isotropic surface's two alphas are equal; microsurface holds
-/// one, tangent the other, and rounding only one would make it anisotropic.
+/// Groups the stored channels that are put into fp32 together. Microsurface holds one alpha and tangent the other: both
+/// are equal on an isotropic surface, and rounding only one would make it anisotropic.
 std::vector<std::vector<frame::Channel>> channelsOfOneError(const frame::FeatureSet& features,
                                                             const frame::GBufferLayout& layout) {
     using frame::Channel;
@@ -160,7 +160,7 @@ std::vector<std::vector<frame::Channel>> channelsOfOneError(const frame::Feature
     return groups;
 }
 
-/// The error that stored channels cause, from the pair's relMse with them alone in fp32.
+/// The error that each stored channel causes, from the pair's relMse with that channel alone in fp32.
 std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const Asked& asked, const TruthPicture& truth,
                                         double relMse) {
     std::vector<ChannelShare> shares;
@@ -195,8 +195,8 @@ bool showsSigned(const CompareRequest& request) {
     return frame::displayMapping(request.settings.view, request.settings.layout) == frame::DisplayMapping::Signed;
 }
 
-/// A packed layout's tolerance is wide enough to hide a faint light that was skipped. So the same picture with every
-/// channel in fp32 must hold what the exact layout is held to: then quantisation is all that differs.
+/// Checks the image with every channel in fp32 against the exact layout's tolerance. A packed layout's tolerance alone
+/// could hide a faint light that was skipped; with this check only quantisation is left to differ.
 void checkWithoutPacking(engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
                          const Asked& asked, const TruthPicture& truth, Verdict& verdict) {
     frame::FrameSettings settings = asked.settings;
@@ -209,13 +209,13 @@ void checkWithoutPacking(engine::Renderer& renderer, const gpu::Capabilities& gl
     verdict.ok = verdict.missed.empty();
 }
 
-/// Both with the exposure and tone map of the settings. Of a file nothing says which it had: both go without.
+/// Both images with the exposure and tone map of the settings. Those of a file are unknown, so then both go without.
 ShownPair shownPair(const CompareRequest& request, const DisplayImage& a, const DisplayImage& truth) {
     const bool haveDisplay = !std::holds_alternative<PictureTruth>(request.against) && request.settings.display;
     return haveDisplay ? ShownPair{&a, &truth} : ShownPair{};
 }
 
-/// Hardware filtering beside the exact one, which all other pairs use.
+/// Whether to add a pair with hardware filtering; all other pairs filter exactly.
 bool showsHardwareFilter(const scenes::Scene& scene, const CompareRequest& request) {
     return isReference(request) && request.hardwareFilter && !request.techniques.empty() &&
            request.settings.filter == frame::TextureFilter::Exact && frame::materialFeatures(scene).textures();
@@ -331,7 +331,7 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& packing
     return tolerance;
 }
 
-/// Means over the pixels where light spreads; none: it spreads nowhere.
+/// Means over the pixels with diffused light; unset if there are none.
 std::optional<SpreadLight> spreadLight(const ReferencePicture& truth) {
     SpreadLight sum{0, 0.0, 0.0};
     for (const reference::Diffusion::Answer& answer : truth.spread) {
@@ -383,15 +383,15 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
                     pair.verdict.missed.push_back(std::move(missed));
             pair.verdict.ok = pair.verdict.missed.empty();
         }
-        // Against a truth that is packed too, fp32 would tell of the truth's packing alone.
+        // Against a truth that is packed too, fp32 would only measure the truth's packing.
         if (isPacked(packingOf(asked.technique, asked.settings.layout)) && !isPacked(packingOfTruth(request))) {
             if (request.channelShares) {
-                // One G-buffer, one picture: the channels' shares are the same.
+                // Identical images from one G-buffer have the same error per channel.
                 const std::optional<std::size_t> equal = equalPicture(result, all, asked, picture.picture);
                 pair.channels = equal ? result.record.pairs[*equal].channels
                                       : channelShares(renderer, asked, truth, pair.figures.relMse);
             }
-            // Against a picture file the tolerance is about that picture, which need not come from this renderer.
+            // An image file need not come from this renderer, so the exact layout's tolerance does not apply to it.
             if (!request.tolerance && !std::holds_alternative<PictureTruth>(request.against))
                 checkWithoutPacking(renderer, gl, request, asked, truth, pair.verdict);
         }

@@ -12,12 +12,12 @@ namespace tessera::validation {
 
 /// The double-precision renderer as the truth.
 struct Reference {};
-/// A picture that was read from a file.
+/// An image that was read from a file.
 struct PictureTruth {
     std::string path;
     Picture picture;
 };
-/// A technique, a picture, or the reference.
+/// A technique, an image, or the reference.
 using Truth = std::variant<engine::Technique, PictureTruth, Reference>;
 
 /// A technique with another G-buffer layout than the request's.
@@ -26,7 +26,7 @@ struct LayoutPair {
     const frame::LayoutInfo* layout; ///< a row of frame::layoutTable()
 };
 
-/// The pictures to compare.
+/// The images to compare, and how.
 struct CompareRequest {
     std::vector<engine::Technique> techniques;
     std::vector<LayoutPair> layouts = {}; ///< further pairs, after those of the techniques
@@ -34,21 +34,21 @@ struct CompareRequest {
     frame::FrameSettings settings;
     bool hardwareFilter = true;                ///< whether to measure hardware filtering beside the exact one
     bool channelShares = true;                 ///< whether to measure what each packed channel adds to the error
-    std::optional<Tolerance> tolerance;        ///< instead of the one each pair is held to by itself
+    std::optional<Tolerance> tolerance;        ///< replaces the default tolerance of each pair
     std::function<void()> renderedOne = [] {}; ///< called stepCount() times from any thread, for progress
 };
 
-/// A picture of the comparison, linear and as shown.
+/// An image of the comparison, linear and after display mapping.
 struct NamedPicture {
     std::string name;
     Picture picture;
     DisplayImage display;
 };
 
-/// What one picture was measured against: the truth, or of the pictures that the reference allows the nearest.
+/// The truth of one image: the truth itself, or the nearest image that the reference allows.
 struct PairTruth {
     Picture picture;
-    /// By pixel: 1 where the truth shows another surface, so that nothing is compared; empty where that cannot be.
+    /// Per pixel, 1 where the truth shows another surface, so that nothing is compared; empty without the reference.
     std::vector<std::uint8_t> excluded;
 };
 
@@ -59,37 +59,36 @@ struct CompareResult {
     std::vector<PairTruth> truths;      ///< parallel to record.pairs: the truth of each
 };
 
-/// Requested settings of how a picture is made (engine::Setting::samePicture) go to the techniques that take
-/// it; the others keep their own.
+/// Resets settings that change only how an image is made (engine::Setting::samePicture) to their defaults, where the
+/// technique does not support the requested value.
 frame::FrameSettings settingsTakenBy(engine::Technique technique, const frame::FrameSettings& settings);
-/// The same for techniques that do not heed it at all: what one heeds and does not take stays.
+/// The same where the technique ignores the setting. A setting that it reads stays, even if unsupported.
 frame::FrameSettings settingsHeededBy(engine::Technique technique, const frame::FrameSettings& settings);
 
-/// Steps of compareTechniques(), for progress: pictures, each row of the reference's, and what a range tolerance drops.
+/// Number of progress steps of compareTechniques(): images, rows of the reference's images, and the range tolerance.
 std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request);
 
-/// Names of the pictures that compareTechniques() measures, in its order: "deferred", "tiled_deferred (packed)" ...
+/// Names of the images that compareTechniques() measures, in its order: "deferred", "tiled_deferred (packed)" ...
 std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareRequest& request);
 
-/// Renders every technique and measures it against the truth. Pairs that must agree to the last bit (no G-buffer, or
-/// the truth's layout, on a software rasteriser) are held to that; see pairTolerance(). Where the G-buffer is packed,
-/// each channel's share of the error is found by storing that channel alone in fp32, once for techniques whose pictures
-/// are equal in every bit; and unless the truth is a file or packed itself, the picture with all of them in fp32 must
-/// hold the exact layout's tolerance. What a range tolerance drops is measured on the technique that is the truth, or
-/// the first one where that is none. Against the reference, pixels that show other triangles are excluded; textures
-/// filtered by hardware are one pair of their own there (hardwareFilterName()), against the reference's picture with
-/// that filter.
+/// Renders every technique and measures it against the truth. Pairs that must be bit-identical (no G-buffer, or the
+/// truth's layout, on a software rasteriser) are checked for that; see pairTolerance(). If the G-buffer is packed, the
+/// error of each channel is found by storing that channel alone in fp32, once for techniques with bit-identical images.
+/// Unless the truth is a file or packed itself, the image with all channels in fp32 must also meet the exact layout's
+/// tolerance. The light dropped by a range tolerance is measured on the truth's technique, or on the first technique if
+/// the truth is none. Against the reference, pixels that show other triangles are excluded, and hardware texture
+/// filtering is a pair of its own (hardwareFilterName()), against the reference's image with that filter.
 CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request);
 
-/// What the pair that shows hardware filtering beside the exact one calls a technique.
+/// The name of a technique in the pair with hardware filtering.
 std::string hardwareFilterName(const std::string& technique);
 
-/// The techniques that take the settings which they heed. The others go to `leftOut` with the reason.
+/// The techniques that support all settings that they read. The others go to `leftOut` with the reason.
 std::vector<engine::Technique> techniquesTaking(const frame::FrameSettings& settings,
                                                 std::vector<LeftOutTechnique>& leftOut);
 
-/// What a technique is held to against another in a scene of so many lights, with the reason in Tolerance::reason.
-/// `packing` is what sets the two apart: exact where both are packed alike.
+/// The tolerance of a technique against another in a scene with `lightCount` lights; Tolerance::reason is its reason.
+/// `packing` is the coarser packing of the two, or exact if both are packed alike.
 Tolerance pairTolerance(engine::Technique technique, const frame::GBufferLayout& packing, bool isSoftware,
                         std::size_t lightCount);
 

@@ -18,26 +18,26 @@ namespace tessera::validation {
 
 namespace {
 
-/// Into which directions a light shines, and from how far around its position.
+/// Where a light emits: its bounding ball, and the cone or half space that it shines into.
 struct Shine {
-    double surfaceMetres = 0.0; ///< of the ball around its position that it shines from
+    double surfaceMetres = 0.0; ///< radius of the ball around its position that holds its surface
     bool isCone = false;
-    bool hasFront = false;       ///< shines from one side of a flat surface, into the half of space before it
-    glm::dvec3 directionWS{0.0}; ///< along the cone's axis, or away from the front
+    bool hasFront = false;       ///< a one-sided flat light: shines into the half space before it
+    glm::dvec3 directionWS{0.0}; ///< along the cone's axis, or the normal of the shining side
     double cosOuter = -1.0;
 
-    /// Whether a point lies in the cone or before the front; everywhere without either. `toLight` is of any length.
+    /// Whether a point lies in the cone or half space; true for other lights. `toLight` is of any length.
     bool reaches(const glm::dvec3& toLight) const {
         if (hasFront) return glm::dot(-toLight, directionWS) > 0.0;
         return !isCone || glm::dot(-toLight, directionWS) > cosOuter * glm::length(toLight);
     }
-    /// Whether any place that it may come from is in front of a surface. `normal` is of unit length, or 0.
+    /// Whether any point of the ball is in front of a surface. `normal` is unit, or 0: false.
     bool isInFront(const glm::dvec3& normal, const glm::dvec3& toLight) const {
         return glm::dot(normal, toLight) + surfaceMetres * glm::length(normal) > 0.0;
     }
 };
 
-/// A light as plain numbers; only those that are on and not dark.
+/// A light of finite range, as plain numbers; lights that are off or black are left out.
 struct TrueLight {
     int sceneLight = 0;
     Shine shine;
@@ -45,16 +45,16 @@ struct TrueLight {
     double squaredRange = scenes::kInfinity; ///< of falloff inverse_square
     bool fallsOffByABC = false;
     glm::dvec3 attenuation{0.0}; ///< A B C, times the tolerance
-    double brightest = 0.0;      ///< channel of colour x intensity
-    double dimSquared = 0.0;     ///< of an area light that a tolerance ends: the squared distance from its ball
-    bool isDimmed = false;       ///< whether it is one
+    double brightest = 0.0;      ///< largest channel of colour x intensity
+    double dimSquared = 0.0;     ///< area light ended by the tolerance: squared range from its ball
+    bool isDimmed = false;       ///< whether dimSquared applies
 };
 
 /// A light that reaches everywhere.
 struct EndlessLight {
     int sceneLight = 0;
     Shine shine;
-    glm::dvec4 placeWS{0.0}; ///< homogeneous: its position, or with w = 0 the direction that it comes from
+    glm::dvec4 placeWS{0.0}; ///< homogeneous: its position, or with w = 0 the direction to the light
 };
 
 struct TrueLights {
@@ -62,8 +62,8 @@ struct TrueLights {
     std::vector<EndlessLight> everywhere;
 };
 
-/// Lights without a position, and those whose falloff never ends: without a range, or of A B C where no tolerance ends
-/// it or only A is not 0, or of an area where none does.
+/// Whether a light never ends: without a position; inverse square without a range; A B C without a tolerance or with A
+/// alone; an area light with neither range nor tolerance.
 bool reachesEverywhere(const scenes::Light& light, double rangeTolerance) {
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     if (!info.hasPosition()) return true;
@@ -103,7 +103,7 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
         else
             plain.squaredRange = double(light.rangeMetres) * double(light.rangeMetres);
         const glm::dvec3 color = most * glm::dvec3(light.color) * double(light.intensity);
-        // Colours are held to 1e30 (docs/numerics.md).
+        // Colours are clamped to 1e30 (docs/numerics.md).
         plain.brightest = std::min(std::max({color.r, color.g, color.b}), 1e30);
         plain.isDimmed = isArea && std::isinf(light.rangeMetres);
         if (plain.isDimmed)
@@ -115,7 +115,7 @@ TrueLights trueLights(const scenes::Scene& scene, const frame::FrameSettings& se
 
 bool reaches(const TrueLight& light, const glm::dvec3& positionWS, double squaredDistance) {
     if (!light.shine.reaches(light.positionWS - positionWS)) return false;
-    // The falloff itself, not the radius that solves it, is held against the tolerance.
+    // Tests the falloff itself against the tolerance, not the radius solved from it.
     const double distance = std::sqrt(squaredDistance);
     if (light.isDimmed) {
         const double fromSurface = distance - light.shine.surfaceMetres;
@@ -133,7 +133,7 @@ struct RowCounts {
     CellLights cells;
 };
 
-/// Whether lists may lack lights behind the surfaces to judge.
+/// Whether the lists may leave out lights behind the judged surfaces.
 bool leavesOutBehind(const OracleInput& input) {
     return input.drawn.culling.normals != culling::NormalTest::Off && input.layer == SurfaceLayer::Opaque;
 }
@@ -147,7 +147,7 @@ public:
 
     void row(int row, RowCounts& counts) const {
         std::vector<int> visited;
-        std::optional<VisitedCell> cell; // that `visited` is of
+        std::optional<VisitedCell> cell; // the cell of `visited`
         for (int column = 0; column < input_.settings.sizePixels.x; ++column) {
             const std::size_t pixel =
                 std::size_t(row) * std::size_t(input_.settings.sizePixels.x) + std::size_t(column);
@@ -178,7 +178,7 @@ public:
 private:
     void judgePixel(const glm::dvec3& positionWS, const glm::dvec3& normal, const std::vector<int>& visited,
                     glm::ivec2 pixel, LightOracleFigures& figures) const {
-        const bool isUnit = std::abs(glm::dot(normal, normal) - 1.0) < 1e-3; // a broken normal excuses nothing
+        const bool isUnit = std::abs(glm::dot(normal, normal) - 1.0) < 1e-3; // a broken normal excuses no missing light
         auto next = visited.begin();
         for (const TrueLight& light : lights_.finite) {
             const glm::dvec3 toLight = light.positionWS - positionWS;
@@ -231,7 +231,7 @@ void add(RowCounts& sum, const RowCounts& rows) {
     for (std::size_t i = 0; i < rows.pixelsByVisited.size(); ++i) sum.pixelsByVisited[i] += rows.pixelsByVisited[i];
 }
 
-/// The number of lights that 99 % of the covered pixels do not exceed (nearest rank).
+/// 99th percentile (nearest rank) of the lights visited by a covered pixel.
 std::uint64_t p99Of(const std::vector<std::uint64_t>& pixelsByVisited, std::uint64_t covered) {
     const std::uint64_t rank = (covered * 99 + 99) / 100;
     std::uint64_t seen = 0;
@@ -247,7 +247,7 @@ std::optional<double> ratio(std::uint64_t a, std::uint64_t b) {
     return double(a) / double(b);
 }
 
-/// Rows from the top to rows from the bottom.
+/// Flips rows from top-down to bottom-up.
 std::vector<float> flippedRows(const std::vector<float>& rgba, int width, int height) {
     std::vector<float> flipped(rgba.size());
     const auto pitch = std::ptrdiff_t(width) * 4;
@@ -256,10 +256,10 @@ std::vector<float> flippedRows(const std::vector<float>& rgba, int width, int he
     return flipped;
 }
 
-/// Opaque surfaces alone, as a view shows them; RGBA, rows from the bottom.
+/// Renders a debug view of the opaque surfaces alone; RGBA, rows from the bottom.
 std::vector<float> opaquePicture(scenes::Scene scene, const frame::FrameSettings& settings, frame::DebugView view,
                                  engine::Technique technique) {
-    // Transparent surfaces become holes; without them the scene's bounds, and by them depths and edges, would change.
+    // Masks out transparent surfaces. Removing them would change the scene's bounds, and so depths and edges.
     for (scenes::Material& material : scene.materials) {
         if (!scenes::isTransparent(material)) continue;
         material.transmission = 0.0f;
@@ -276,7 +276,7 @@ std::vector<float> opaquePicture(scenes::Scene scene, const frame::FrameSettings
     return flippedRows(frame.radiance, frame.width, frame.height);
 }
 
-/// 1 where the opaque surface that shows takes light; empty where no material is unlit, so that all do.
+/// 1 where the visible opaque surface is lit; empty if no material is unlit, so that all are.
 std::vector<std::uint8_t> litPixels(const scenes::Scene& scene, const frame::FrameSettings& settings) {
     if (!frame::materialFeatures(scene)[scenes::MaterialModel::SingleColor]) return {};
     scenes::Scene lit = scene;

@@ -5,11 +5,11 @@
 
 namespace tessera::validation {
 
-/// World positions of pixel centres from the depth buffer, in double precision, by the camera's definition and not by
+/// World positions of pixel centres from the depth buffer, in double precision. Follows the camera's definition, not
 /// the renderer's matrices.
 class PixelPositions {
 public:
-    /// `depths` are the view depths of depth values.
+    /// `depths`: the view depths that depth values stand for.
     PixelPositions(const scenes::Camera& camera, const frame::FrameSettings& settings,
                    const frame::DepthInterval& depths);
 
@@ -20,7 +20,7 @@ private:
     scenes::Camera camera_;
     glm::ivec2 sizePixels_;
     bool isPerspective_;
-    double halfHeight_; ///< of the picture: metres, or for a perspective camera those a metre ahead
+    double halfHeight_; ///< half the image height in metres; perspective: 1 m ahead
     double nearMetres_, farMetres_;
 };
 

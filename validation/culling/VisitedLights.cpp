@@ -11,7 +11,7 @@ namespace {
 
 using culling::Method;
 
-/// Position of a depth among the slices that a tile's second word describes.
+/// Index of a depth's slice; `slicing` is the tile's second word.
 std::uint32_t sliceAt(const engine::DrawnLists& drawn, float depth, std::uint32_t slicing) {
     const std::uint32_t key = std::bit_cast<std::uint32_t>(drawn.view.depthKey.x + depth);
     const std::uint32_t shift = slicing % 32;

@@ -51,7 +51,7 @@ bool hasEqualBits(const float* a, const float* b) {
     return true;
 }
 
-/// Mean magnitude of luminance over the finite pixels, and the share of all pixels where it is above the threshold.
+/// Mean magnitude of luminance over the finite pixels, and the fraction of all pixels with more than the threshold.
 struct Signal {
     double meanLuminance = kNotMeasured;
     double litShare = 0.0;
@@ -65,7 +65,7 @@ Signal signalOf(const Picture& picture, double litThreshold) {
         const double value = std::abs(luminance(picture.pixel(i)));
         sum += value;
         ++finite;
-        lit += value > litThreshold; // false for every pixel when there was nothing to take the threshold from
+        lit += value > litThreshold; // false for every pixel if the threshold is NaN
     }
     return {finite > 0 ? sum / double(finite) : kNotMeasured, double(lit) / double(picture.pixelCount())};
 }

@@ -16,7 +16,7 @@ std::string figureText(double value) {
 std::string shareText(double share) {
     if (std::isnan(share)) return "-";
     if (share == 0.0 || share == 1.0) return fmt::format("{:.0f} %", 100.0 * share);
-    // Three decimals, kept off both ends, which are promises.
+    // Three decimals, clamped so that 0 % and 100 % are printed for exact values only.
     return fmt::format("{:.3f} %", std::clamp(100.0 * share, 0.001, 99.999));
 }
 

@@ -17,15 +17,15 @@ namespace tessera::validation {
 namespace {
 
 // Andersson et al. 2020, sections 4.1 and 4.2: exponents that compress large colour and feature differences, and the
-// share pc of the largest colour difference that is spread over 0 .. pt.
+// fraction pc of the largest colour difference that is mapped to 0 .. pt.
 constexpr double kColourExponent = 0.7;
 constexpr double kFeatureExponent = 0.5;
 constexpr double kColourKnee = 0.4;
 constexpr double kKneeError = 0.95;
 
-/// What the eye makes of a picture.
+/// Colours and features of an image as perceived.
 struct Seen {
-    std::vector<glm::dvec3> colours; ///< huntLabFromLinear() of the filtered picture
+    std::vector<glm::dvec3> colours; ///< huntLabFromLinear() of the filtered image
     Features features;
 };
 
@@ -57,7 +57,7 @@ Seen seenPicture(const DisplayImage& image, double pixelsPerDegree) {
     return {std::move(colours), featuresOf(lightness, pixelsPerDegree)};
 }
 
-/// 0..1. The largest difference that there can be is that of pure green and pure blue.
+/// 0..1. The largest possible difference is that of pure green and pure blue.
 double colourError(const glm::dvec3& a, const glm::dvec3& b) {
     static const double kLargest =
         std::pow(hyab(huntLabFromLinear({0.0, 1.0, 0.0}), huntLabFromLinear({0.0, 0.0, 1.0})), kColourExponent);

@@ -18,7 +18,7 @@ const glm::dmat3 kXyzFromLinear = makeXyzFromLinear();
 const glm::dmat3 kLinearFromXyz = glm::inverse(kXyzFromLinear);
 const glm::dvec3 kWhite = kXyzFromLinear * glm::dvec3(1.0);
 
-/// The cube root of CIE 1976, straight below (6/29)^3.
+/// The cube root of CIE 1976, linear below (6/29)^3.
 double lightnessCurve(double share) {
     constexpr double kDelta = 6.0 / 29.0;
     return share > kDelta * kDelta * kDelta ? std::cbrt(share) : share / (3.0 * kDelta * kDelta) + 4.0 / 29.0;

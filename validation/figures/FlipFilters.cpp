@@ -9,7 +9,7 @@ namespace tessera::validation {
 namespace {
 
 using std::numbers::pi;
-/// The widest Gaussian of all channels, whose radius all of them use.
+/// The widest Gaussian of all channels, whose radius is used for all of them.
 constexpr double kWidestB = 0.04;
 /// Width of the feature detector in degrees. Source: Andersson et al. 2020, section 4.2.
 constexpr double kFeatureDegrees = 0.082;
@@ -27,7 +27,7 @@ double sumOf(const Kernel& kernel) {
     return sum;
 }
 
-/// Positive weights then add up to 1 and negative ones to -1, so that a step or a dot of height 1 gives about 1.
+/// Scales positive weights to a sum of 1 and negative ones to -1, so that a step or a dot of height 1 gives about 1.
 void normaliseSides(Kernel& kernel) {
     double positive = 0.0, negative = 0.0;
     for (const float weight : kernel) (weight > 0.0f ? positive : negative) += double(weight);
@@ -89,7 +89,7 @@ Plane seenBy(const ContrastSensitivity& eye, const Plane& channel, double pixels
         });
     };
     const Kernel first = gaussian(eye.b1), second = gaussian(eye.b2);
-    // Weight of each whole product kernel, whose own sum is that of one dimension squared.
+    // Weight of each 2D product kernel, whose sum is the square of the 1D sum.
     const double weight1 = eye.a1 * std::sqrt(pi / eye.b1), weight2 = eye.a2 * std::sqrt(pi / eye.b2);
     const double sum1 = sumOf(first), sum2 = sumOf(second);
     const double whole = weight1 * sum1 * sum1 + weight2 * sum2 * sum2;

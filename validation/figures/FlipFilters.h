@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-/// The filters that FLIP looks at a picture through (Flip.h), in one dimension: all of its kernels are products of
-/// one for the columns and one for the rows, or sums of two such products.
+/// The separable filters of FLIP (Flip.h): every kernel is the product of a row and a column kernel, or the sum of two
+/// such products.
 namespace tessera::validation {
 
 /// One number per pixel, rows from the top.
@@ -15,7 +15,7 @@ struct Plane {
 /// Weights at -radius .. +radius.
 using Kernel = std::vector<float>;
 
-/// The plane seen through the product of two kernels. Beyond its edges the plane goes on with its outermost pixels.
+/// Filters a plane by the product of two kernels. Beyond the edges the outermost pixels repeat.
 Plane filtered(const Plane& plane, const Kernel& alongRow, const Kernel& alongColumn);
 
 /// Contrast sensitivity of the eye to one opponent channel: its spatial kernel is the sum of
@@ -27,11 +27,11 @@ inline constexpr ContrastSensitivity kAchromatic{1.0, 0.0047, 0.0, 1e-5};
 inline constexpr ContrastSensitivity kRedGreen{1.0, 0.0053, 0.0, 1e-5};
 inline constexpr ContrastSensitivity kBlueYellow{34.1, 0.04, 13.5, 0.025};
 
-/// A channel as the eye sees it at a distance; the kernel's weights add up to 1.
+/// Filters a channel by the eye's contrast sensitivity; the kernel's weights add up to 1.
 Plane seenBy(const ContrastSensitivity& eye, const Plane& channel, double pixelsPerDegree);
 
-/// How strong the edges and the points (thin lines too) of a lightness plane are: lengths of the gradient by first and
-/// by second derivatives of a Gaussian of 0.082 degrees, half that as its standard deviation.
+/// Strength of the edges and the points (thin lines too) of a lightness plane: gradient lengths by first and second
+/// derivatives of a Gaussian of 0.082 degrees, half that as its standard deviation.
 struct Features {
     Plane edges, points;
 };

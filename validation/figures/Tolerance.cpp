@@ -7,11 +7,11 @@
 namespace tessera::validation {
 namespace {
 
-constexpr double kLeastLitShare = 0.10;     // of the covered pixels; below it a picture proves too little
+constexpr double kLeastLitShare = 0.10;     // of the covered pixels; fewer lit ones prove too little
 constexpr double kMostExcludedShare = 0.05; // silhouettes alone stay well under 2 %
 
-/// Pictures that are equal to the last bit need no minimum of lit pixels; for others the minimum keeps a few lit
-/// pixels from hiding behind the percentiles of many dark ones.
+/// Bit-identical images need no minimum of lit pixels. In others it keeps errors of a few lit pixels from hiding behind
+/// the percentiles of many dark ones.
 void checkSignal(std::vector<std::string>& missed, const char* name, double meanLuminance, std::size_t lit,
                  const RadianceFigures& figures) {
     if (!(meanLuminance > 0.0)) {

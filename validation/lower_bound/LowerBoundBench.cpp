@@ -79,7 +79,7 @@ LowerBoundFigures LowerBoundBench::figures(std::span<const std::vector<double>> 
 
 LowerBoundFigures LowerBoundBench::figuresOf(std::vector<std::vector<double>> timesMs) {
     InterleaveOptions more;
-    more.warmUpRounds = 1; // rounds that were kept from an earlier run have drawn nothing in this one
+    more.warmUpRounds = 1; // rounds kept from an earlier run have drawn nothing in this one
     more.rounds = kLeastRounds - int(timesMs[0].size());
     if (more.rounds > 0) {
         const std::vector<std::vector<double>> others = timeInterleaved(frames(), more);

@@ -9,11 +9,11 @@ namespace tessera::validation {
 namespace {
 
 frame::FrameSpec specOf(const engine::Renderer& renderer, frame::FrameSettings settings) {
-    settings.culling = {}; // nothing is lit, and Forward takes no lists
+    settings.culling = {}; // nothing is lit, and Forward reads no lists
     return engine::prepareView(renderer.scene(), engine::Technique::Forward, settings).spec;
 }
 
-/// Uploads values into a buffer that is made anew only where they do not fit.
+/// Uploads values; recreates the buffer only where they do not fit.
 template <typename Value>
 void fill(std::optional<gpu::Buffer>& buffer, const char* label, const std::vector<Value>& values) {
     const std::size_t bytes = values.size() * sizeof(Value);

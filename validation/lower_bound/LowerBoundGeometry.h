@@ -13,9 +13,9 @@ public:
     /// The renderer must outlive the object. Throws InputError as Renderer::draw does.
     LowerBoundGeometry(engine::Renderer& renderer, const frame::FrameSettings& settings);
 
-    /// The view's constants and draws are uploaded anew for every frame.
+    /// Uploads the view's constants and draws for every frame, and draws them.
     void draw(const glm::dvec3& eyeOffsetWS);
-    /// The latest picture: RGBA, rows from the bottom.
+    /// The latest image: RGBA, rows from the bottom.
     std::vector<float> download() const { return value_.downloadAs<float>(); }
 
     static shader::ProgramDesc program(const frame::FrameSpec& spec);

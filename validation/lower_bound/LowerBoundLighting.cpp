@@ -18,7 +18,7 @@ constexpr LightStoreInfo kStores[] = {
     {LIGHT_STORE_UNIFORM, "uniform buffer", "LIGHT_STORE_UNIFORM"},
 };
 
-/// Of the uniform block of shapes, with the corners of polygons; that of LightTexels is smaller.
+/// Size of the uniform block of light shapes with polygon corners; the block of LightTexels is smaller.
 constexpr std::size_t kMostShapeBytes =
     LIGHT_UNIFORM_LIGHTS * (sizeof(shared::LightShapeTexels) + sizeof(shared::LightCornerTexels));
 static_assert(sizeof(shared::LightTexels) <= sizeof(shared::LightShapeTexels) + sizeof(shared::LightCornerTexels));
@@ -37,7 +37,7 @@ std::span<const LightStoreInfo> lightStores(const gpu::Capabilities& gl) {
 
 namespace {
 
-/// The bound's pairs of light and pixel are lit ones. A frame that is not pruned has shadows all the same.
+/// The bound prices unshadowed pairs of light and pixel. Unpruned frames have all shadow features.
 frame::FrameSpec withoutShadows(frame::FrameSpec spec) {
     for (const frame::Feature feature :
          {frame::Feature::Shadows, frame::Feature::SoftShadows, frame::Feature::ShadowMaps, frame::Feature::ShadowLift})
@@ -67,8 +67,8 @@ LowerBoundLighting::LowerBoundLighting(shader::ProgramLibrary& programs, const f
     view_.uploadValue(
         frame::makeCameraView(scenes::Camera{}, spec.settings.sizePixels, frame::LightingSpace::World, glm::vec3(0.0f))
             .constants);
-    // Shaders of a frame that has an environment, or is not pruned, read this block: no radiance, and a rotation, since
-    // a matrix of zeros would make directions NaN.
+    // Shaders read this block in frames with an environment and in unpruned ones. It has no radiance, and a rotation
+    // since a matrix of zeros would make directions NaN.
     environment_.uploadValue(shared::EnvironmentConstants{glm::mat4(1.0f), glm::vec4(0.0f)});
     setLights({});
 }

@@ -7,11 +7,11 @@ namespace tessera::validation {
 
 namespace {
 
-/// Far beyond the surface's farthest corner, 6 metres ahead in a picture of any sensible shape.
+/// Far beyond the surface's farthest corner, 6 metres ahead, at any sensible aspect ratio.
 constexpr double kRangeMetres = 64.0;
 
-/// Successive points on a disc by this angle never line up. Source: Vogel 1979, "A better way to construct the
-/// sunflower head".
+/// Points on a disc at successive multiples of this angle never line up. Source: Vogel 1979, "A better way to construct
+/// the sunflower head".
 const double kGoldenAngleRadians = 3.14159265358979 * (3.0 - std::sqrt(5.0));
 
 shared::LightTexels lowerBoundLight(int kind, int index, int count) {
@@ -27,7 +27,7 @@ shared::LightTexels lowerBoundLight(int kind, int index, int count) {
     return light;
 }
 
-/// Of a polygon: a square.
+/// The corners of a polygon light: a square.
 shared::LightCornerTexels lowerBoundLightCorners() {
     const float half = std::sqrt(0.5f);
     shared::LightCornerTexels corners{};
@@ -37,8 +37,8 @@ shared::LightCornerTexels lowerBoundLightCorners() {
     return corners;
 }
 
-/// A surface half a metre wide that faces ahead; a cone of full intensity everywhere ahead (cos inner 0, cos outer -1),
-/// or parameters of 1 in that direction, and a mild falloff.
+/// Area lights: a surface half a metre wide that faces ahead. Others: a cone of full intensity everywhere ahead (cos
+/// inner 0, cos outer -1) or parameters of 1 in that direction, and a mild falloff.
 shared::LightShapeTexels lowerBoundLightShape(scenes::LightType type) {
     const scenes::LightTypeInfo& info = scenes::infoOf(type);
     const bool isCone = info.reach == scenes::LightReach::Cone;
@@ -47,7 +47,7 @@ shared::LightShapeTexels lowerBoundLightShape(scenes::LightType type) {
         shape.axis =
             glm::vec4(type == scenes::LightType::Sphere ? 0.0f : 0.25f, 0.0f, 0.0f, info.isFlat ? 0.0f : 0.25f);
         if (info.isFlat) shape.attenuation = glm::vec4(0.0f, -0.25f, 0.0f, 0.0f);
-        if (info.hasCorners()) shape.axis.w = 2.0f; // a square's area by half of its diagonal, squared
+        if (info.hasCorners()) shape.axis.w = 2.0f; // a square's area over the square of half its diagonal
         return shape;
     }
     shape.axis = isCone ? glm::vec4(0.0f, 0.0f, 1.0f, -0.5f) : glm::vec4(0.0f, 0.0f, -1.0f, 1.0f);
@@ -60,11 +60,11 @@ shared::LightShapeTexels lowerBoundLightShape(scenes::LightType type) {
 frame::PackedLights lowerBoundLights(const frame::PackedLights& like, int count) {
     frame::PackedLights lights;
     lights.features = like.features;
-    lights.features.has.reset(std::size_t(frame::Feature::LightPictures)); // even lights cost no more
+    lights.features.has.reset(std::size_t(frame::Feature::LightPictures)); // lights without images cost no more
     const std::size_t known = like.texels.size();
     if (known == 0) lights.features.add(frame::featureOf(scenes::LightType::Point));
     for (int i = 0; i < count; ++i) {
-        // When there are fewer than `count`, the same ones in turn; else evenly spaced ones.
+        // Repeats the lights in turn if there are fewer than `count`, else takes evenly spaced ones.
         const std::size_t chosen = known < std::size_t(count) ? std::size_t(i) % std::max<std::size_t>(known, 1)
                                                               : std::size_t(i) * known / std::size_t(count);
         const int kind = known == 0

@@ -23,7 +23,7 @@ std::uint8_t codeValue(float value) {
     return std::uint8_t(std::lround(255.0f * value));
 }
 
-// Lengths in pixels of the font, of which textScale of the image are one.
+// Lengths in font pixels, each textScale pixels of the image wide.
 constexpr int kMargin = 6;
 constexpr int kBarHeight = 8;
 constexpr int kTickHeight = 3;
@@ -32,8 +32,8 @@ constexpr int kSwatch = 7;
 constexpr int kWordsGap = 3;  // from a swatch to its words
 constexpr int kSwatchGap = 8; // from the words to the next swatch
 constexpr int kSwatchRow = kLineHeight + kMargin / 2;
-constexpr int kLeastWidth = 320;        // the swatches with their words, and labels that do not overlap
-constexpr int kLeastPaintedWidth = 160; // a title of two lines
+constexpr int kLeastWidth = 320;        // fits the swatches with their words, and labels without overlap
+constexpr int kLeastPaintedWidth = 160; // fits a title of two lines
 constexpr int kLeastTextScale = 2;
 constexpr std::size_t kMostTitleLines = 2;
 constexpr Rgb8 kBackground = {24, 24, 26};
@@ -93,7 +93,7 @@ struct Framed {
     DisplayImage image;
 };
 
-/// `layoutFor` gives the layout with so many lines of the title.
+/// layoutFor(n) returns the layout for a title of n lines.
 template <typename LayoutFor>
 Framed framed(const LayoutFor& layoutFor, const std::string& title) {
     HeatMapLayout layout = layoutFor(1);
@@ -138,7 +138,7 @@ int swatchWidth(const Swatch& swatch) {
     return kSwatch + kWordsGap + textWidth(swatch.meaning);
 }
 
-/// Upper left corners, in pixels of the font, in rows of a width of `room`.
+/// Upper left corners in font pixels, in rows of width `room`.
 std::vector<glm::ivec2> swatchPlaces(std::span<const Swatch> swatches, int room) {
     std::vector<glm::ivec2> places;
     glm::ivec2 next(0);
@@ -178,7 +178,7 @@ double scalePosition(double rel) {
 
 HeatMapLayout heatMapLayout(int pictureWidth, int pictureHeight, int lines) {
     HeatMapLayout layout;
-    // A picture of a few pixels is enlarged, but never to more than the height that the legend's width suggests.
+    // Enlarges small images by a whole factor until the longer side reaches the legend's minimum width.
     const int fits = kLeastTextScale * (kLeastWidth - 2 * kMargin) / std::max(pictureWidth, pictureHeight);
     layout.scale = std::max(1, fits);
     layout.textScale = std::max(kLeastTextScale, layout.scale * pictureWidth / (kLeastWidth - 2 * kMargin));
@@ -226,7 +226,7 @@ std::vector<std::string> titleLines(const std::string& title, int room) {
     std::string_view rest = title;
     while (!rest.empty()) {
         std::size_t bytes = fitting(rest, room);
-        if (bytes < rest.size() && lines.size() + 1 == kMostTitleLines) { // the rest is lost
+        if (bytes < rest.size() && lines.size() + 1 == kMostTitleLines) { // the rest is cut off
             bytes = fitting(rest, room - textWidth(kEllipsis));
             lines.push_back(std::string(rest.substr(0, bytes)) += kEllipsis);
             break;

@@ -16,7 +16,7 @@ namespace {
 
 struct Font {
     stbtt_fontinfo info{};
-    int ascent = 0; ///< of the line above its base
+    int ascent = 0; ///< above the baseline, in font units
 
     Font() {
         stbtt_InitFont(&info, reinterpret_cast<const unsigned char*>(fontFile().data()), 0);
@@ -34,7 +34,7 @@ const Font& font() {
     return kFont;
 }
 
-/// Takes the first letter from a text that is not empty.
+/// Removes and returns the first code point of a text that is not empty.
 std::uint32_t takeLetter(std::string_view& text) {
     const std::size_t bytes = letterBytes(text);
     const auto byte = [&](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(text[i])); };

@@ -14,7 +14,7 @@
 namespace tessera::validation {
 namespace {
 
-/// A texel's four numbers: 0..1 where they are integers.
+/// The RGBA of a texel; integer formats are scaled to 0..1.
 glm::vec4 texelAt(const scenes::Image& image, std::size_t index) {
     const auto numbers = [&]<typename T>(T one) {
         T texel[4];

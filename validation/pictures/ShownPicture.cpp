@@ -23,11 +23,11 @@ std::string countTitle(const std::string& counted, const std::string& of, const 
         sum += counts.pixel(i)[0];
         most = std::max(most, double(counts.pixel(i)[0]));
     }
-    // The figures first: a small picture's title is cut.
+    // Figures come first: the title of a small image is cut.
     return fmt::format("{:.1f} {} a pixel, at most {:.0f}: {}", sum / std::max(covered, 1.0), counted, most, of);
 }
 
-/// The light that views of one light show; null where it casts no shadows.
+/// The light that single-light views display; null if it casts no shadows.
 const engine::DrawnShadows::Light* shownLight(const engine::DrawnShadows& shadows) {
     return shadows.shown ? &shadows.lights[*shadows.shown] : nullptr;
 }
@@ -52,7 +52,7 @@ std::string cascadesTitle(const engine::DrawnShadows& shadows) {
                        light.sideTexels, light.sideTexels);
 }
 
-/// What face i is called, of each kind of light that has one in the atlas.
+/// The names of face i, for each kind of light that has one in the atlas.
 std::set<std::string> namesInAtlas(const engine::DrawnShadows& shadows, int i) {
     std::set<std::string> names;
     for (const engine::DrawnShadows::Light& light : shadows.lights)

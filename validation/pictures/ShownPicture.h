@@ -8,13 +8,13 @@
 
 namespace tessera::validation {
 
-/// A rendered frame, with its shadows, as it is saved to be looked at: what its display pass made of it, and of views
-/// that need one a picture with a title and a legend.
+/// The image of a rendered frame for saving: its display image, with a title and a legend for views that need them.
+/// `shadows` are the frame's.
 DisplayImage shownPicture(const engine::RenderedFrame& frame, const engine::DrawnShadows& shadows,
                           const std::string& sceneName, engine::Technique technique, frame::DebugView view);
 
-/// The legend of a view of shadow maps, by colours: which maps each stands for, and why there is none. Empty for other
-/// views, and of an atlas without maps.
+/// The legend of a shadow map view: which maps each colour stands for, and why there are none. Empty for other views,
+/// and for an atlas without maps.
 std::vector<Swatch> shadowSwatches(frame::DebugView view, const engine::DrawnShadows& shadows);
 
 } // namespace tessera::validation

@@ -14,18 +14,18 @@ namespace tessera::reference {
 
 namespace {
 
-/// By how much of a radian a lobe may turn within a square.
+/// Largest rotation of a lobe within a square, in radians.
 constexpr double kTurnRadians = 0.8;
-/// And how many texels of a picture its corners may be from its middle.
+/// Largest distance of a square's corners from its middle, in texels of the light's image.
 constexpr double kMostTexels = 1.5;
 
-/// Half vectors stretched so that a lobe of any width is about a radian wide.
+/// Half vectors, stretched so that a lobe of any width is about a radian wide.
 class Stretch {
 public:
     /// Microfacets stretched to a hemisphere (Heitz 2018, "Sampling the GGX Distribution of Visible Normals").
     Stretch(const Frame& frame, const glm::dvec2& alpha, const glm::dvec3& toViewer)
         : frame_(frame), alpha_(alpha), toViewer_(toViewer) {}
-    /// Hairs, which shine by the height of half vectors over the surface alone.
+    /// Sheen fibres: the lobe depends only on the elevation of half vectors over the surface.
     Stretch(const glm::dvec3& normal, double height, const glm::dvec3& toViewer)
         : frame_(frameOf(normal)), height_(height), toViewer_(toViewer) {}
 
@@ -62,7 +62,7 @@ std::vector<Stretch> stretchesOf(const SurfacePoint& point, const glm::dvec3& to
 
 using Integrand = std::function<glm::dvec3(const glm::dvec3& direction)>;
 
-/// Kronrod's seven points on -1..1 and their weights, and those of Gauss's three among them.
+/// Gauss-Kronrod points on -1..1: Kronrod's weights for all seven, Gauss's weights for three of them.
 struct Rule {
     static constexpr int kPoints = 7;
     static constexpr std::array<double, kPoints> place{
@@ -110,7 +110,7 @@ public:
                 std::push_heap(heap.begin(), heap.end(), isWorse);
             }
         }
-        // Anew: differences of sums keep the rounding of the greatest.
+        // Sums from scratch: running sums of differences keep the rounding of their largest terms.
         sum = differences = glm::dvec3(0.0);
         for (const Square& square : heap) keep(square, 1.0);
         return {sum, differences * differences};
@@ -133,7 +133,7 @@ private:
         return quarters;
     }
 
-    /// Small enough for every lobe, as long as no more than half of the squares are spent.
+    /// Quarters squares until they are small enough for every lobe and the image, with at most half of the squares.
     std::vector<Square> firstSquares() const {
         std::deque<Square> open;
         for (std::size_t patch = 0; patch < area_.patchCount(); ++patch) {
@@ -165,7 +165,7 @@ private:
         return false;
     }
 
-    /// Of the light's picture: what is smaller than the square might be missed.
+    /// Whether a square covers many texels of the light's image: it might miss details smaller than itself.
     bool holdsManyTexels(const Square& square) const {
         if (surface_.isEven()) return false;
         const auto texelsAt = [&](double x, double y) {
@@ -202,7 +202,7 @@ private:
     const Settings& settings_;
 };
 
-/// The integral over the directions in which the light is seen, times its radiance and window.
+/// Integrates over the directions in which the light is visible, times its radiance and range window.
 Estimate integralOver(const ShiningLight& shining, const glm::dvec3& positionRWS, const glm::dvec3& normal,
                       const std::vector<Stretch>& stretches, const Integrand& integrand, const Settings& settings) {
     const double window = rangeWindow(glm::distance(shining.positionRWS, positionRWS), shining.rangeMetres);

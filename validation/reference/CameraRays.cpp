@@ -12,7 +12,7 @@ CameraRays::CameraRays(const scenes::Camera& camera, glm::ivec2 sizePixels)
       nearMetres_(camera.nearMetres), farMetres_(camera.farMetres) {}
 
 Ray CameraRays::through(const glm::dvec2& placePixels) const {
-    // -1 to 1 from the left to the right and from the bottom to the top edge of the picture.
+    // -1 to 1 from the left to the right and from the bottom to the top edge of the image.
     const double x = 2.0 * placePixels.x / sizePixels_.x - 1.0;
     const double y = 1.0 - 2.0 * placePixels.y / sizePixels_.y;
     const glm::dvec2 half = halfExtent();

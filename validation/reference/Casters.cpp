@@ -12,25 +12,25 @@ namespace tessera::reference {
 
 namespace {
 
-/// The conditions for a candidate to count.
+/// The conditions for a candidate to count, and what the segment has met.
 struct ShadowQuery : RTCIntersectContext {
     Segment segment;
     glm::dvec3 centreRWS{0.0};
-    const Object* ownObject = nullptr; ///< of the surface that the segment begins on, with its triangle
+    const Object* ownObject = nullptr; ///< the surface at the segment's start, with its triangle
     std::uint32_t ownTriangle = 0;
     const Textures* textures = nullptr;
-    const scenes::Material* passed = nullptr; ///< of meet()
+    const scenes::Material* passed = nullptr; ///< as in Casters::meet()
     Casters::Met met;
 };
 
 /// Where a segment crosses a triangle.
 struct Crossing {
     Hit hit;
-    double share = 0.0;  ///< of the segment, up to there
-    bool goesIn = false; ///< past the side from which the corners run counter-clockwise
+    double share = 0.0;  ///< fraction of the segment up to there
+    bool goesIn = false; ///< through the side whose corners run counter-clockwise
 };
 
-/// Between the segment's ends; by the signed volumes of the tetrahedra over the triangle's edges.
+/// Intersects a triangle between the segment's ends, by the signed volumes of the tetrahedra over the triangle's edges.
 std::optional<Crossing> crossingOf(const Object& object, std::uint32_t triangle, const ShadowQuery& query) {
     const auto& [from, along] = query.segment;
     glm::dvec3 corners[3];
@@ -59,7 +59,7 @@ void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
     auto& query = *static_cast<ShadowQuery*>(arguments->context);
     const auto& object = *static_cast<const Object*>(arguments->geometryUserPtr);
     const std::uint32_t triangle = RTCHitN_primID(arguments->hit, arguments->N, 0);
-    arguments->valid[0] = 0; // it goes on until the answer is known
+    arguments->valid[0] = 0; // the ray continues until the answer is known
     if (query.met.isHidden || (&object == query.ownObject && triangle == query.ownTriangle)) return;
     const std::optional<Crossing> crossing = crossingOf(object, triangle, query);
     if (!crossing) return;
@@ -84,7 +84,7 @@ void judgeCrossing(const RTCFilterFunctionNArguments* arguments) {
 Casters::Casters(const scenes::Scene& scene, const Objects& objects)
     : textures_(scene, Filtering::Exact), anchor_(objects.anchor()), device_(makeDevice()) {
     std::vector<const Object*> casting;
-    std::vector<double> places[3]; // of casters' corners from the anchor
+    std::vector<double> places[3]; // casters' corners, from the anchor
     for (const Object& object : objects.opaque()) {
         if (!object.castsShadow) continue;
         casting.push_back(&object);
@@ -117,7 +117,7 @@ Casters::Met Casters::meet(const Segment& segment, const Hit* own, const scenes:
     query.textures = &textures_;
     query.passed = passed;
     RTCRay ray = rayFrom(glm::vec3(segment.from), glm::vec3(segment.along)).ray;
-    ray.tfar = 1.00001f; // the judge knows the end in double
+    ray.tfar = 1.00001f; // judgeCrossing() tests the end in double
     rtcOccluded1(tree_.get(), &query, &ray);
     return std::move(query.met);
 }

@@ -8,49 +8,49 @@
 
 namespace tessera::reference {
 
-/// From a point to where the light is, or past all casters. Relative to the casters' centre.
+/// A shadow ray from a point to the light's position, or past all casters. Relative to the casters' centre.
 struct Segment {
     glm::dvec3 from{0.0}, along{0.0};
 };
 
-/// What casts shadows (scenes/Shadows.h). Embree finds the candidates in single precision; each is met again in double.
-/// May be used by several threads.
+/// The shadow casters (scenes/Shadows.h). Embree finds candidates in single precision; each is intersected again in
+/// double. May be used by several threads.
 class Casters {
 public:
     /// The objects must outlive it. Throws as makeTree().
     Casters(const scenes::Scene& scene, const Objects& objects);
 
     bool empty() const { return !tree_; }
-    /// Segments begin relative to it.
+    /// The origin of segments.
     const glm::dvec3& centreRWS() const { return anchor_.centreRWS; }
-    /// Around the centre, all casters.
+    /// Radius of a ball around the centre that holds all casters.
     double radiusMetres() const { return radiusMetres_; }
 
     struct Met {
         bool isHidden = false;
-        bool isUndecided = false;      ///< a mask may have another texel there
-        std::vector<double> crossings; ///< of what is passed, as shares of the segment; minus those where it goes in
+        bool isUndecided = false;      ///< rounding may select another texel of a mask there
+        std::vector<double> crossings; ///< of the passed material, in fractions of the segment; negative: enters there
     };
-    /// Between the segment's ends. `own` is null where it begins above a surface, else the triangle there counts as no
-    /// caster. What has the material `passed` hides nothing, and its crossings are told.
+    /// Finds casters between the segment's ends. `own` is the hit where it begins, whose triangle is no caster, or null
+    /// if it begins above a surface. Objects of the material `passed` hide nothing; their crossings are reported.
     Met meet(const Segment& segment, const Hit* own, const scenes::Material* passed = nullptr) const;
 
-    /// A program holds the point and the light to single precision relative to an origin of its own, and the casters to
-    /// another: twice eight roundings of both. It may call a triangle's plane the point's own within as much again.
+    /// Rounding tolerance of a position. A program holds point and light in fp32 relative to one origin, casters to
+    /// another: twice eight roundings of both. It may take a triangle's plane for the point's own within as much again.
     double leewayMetres(const glm::dvec3& placeRWS) const;
 
-    /// The same of the other end of a way to a light: its place, or (not placed) what the way there is turned by. A
-    /// direction is rounded as a position is.
+    /// The same for the other end of a shadow ray: the light's position, or (not placed) the end of a ray with a
+    /// rounded direction. A direction is rounded as a position is.
     double leewayMetres(bool isPlaced, const ShiningLight& light, double pointMetres, double wayMetres) const {
         return isPlaced ? leewayMetres(light.positionRWS) : pointMetres + kPositionRounding * wayMetres;
     }
 
 private:
-    Textures textures_;         ///< a shadow has no size in pixels, so level 0 counts
-    Anchor anchor_;             ///< Embree's origin: the digits are where the pixels look
-    double radiusMetres_ = 0.0; ///< as radiusMetres()
-    double originMetres_ = 0.0; ///< from it to the product's origin of casters, their corners' median on each axis
-    /// By how much rounding may move what is drawn, beyond that of its distance from both.
+    Textures textures_; ///< shadows have no footprint, so level 0 is read
+    Anchor anchor_;     ///< Embree's origin: fp32 is finest near the visible points
+    double radiusMetres_ = 0.0;
+    double originMetres_ = 0.0; ///< from the anchor to the product's caster origin, the corners' median per axis
+    /// Rounding of drawn positions, beyond that by their distance from both origins.
     double roundingMetres_ = 0.0;
     Device device_;
     Tree tree_; ///< null without casters

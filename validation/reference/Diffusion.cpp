@@ -13,19 +13,19 @@ namespace tessera::reference {
 
 namespace {
 
-/// A Gaussian of a profile in the scene's metres.
+/// A Gaussian of a diffusion profile, in the scene's metres.
 struct Term {
     double variance = 0.0;
     glm::dvec3 weight{0.0};
-    double share = 0.0; ///< of the points
+    double share = 0.0; ///< fraction of the points
 };
 
-/// Of one material.
+/// The diffusion profile of a material.
 struct Profile {
     std::vector<Term> terms;
     double widestMetres = 0.0;
 
-    /// 1/m^2, by channel.
+    /// R at a squared distance: 1/m^2, by channel.
     glm::dvec3 at(double distance2) const {
         glm::dvec3 sum(0.0);
         for (const Term& term : terms) sum += term.weight * density(term, distance2);
@@ -37,12 +37,12 @@ struct Profile {
 };
 
 Profile profileInScene(const scenes::Subsurface& subsurface) {
-    const double metres = 0.001 / double(subsurface.scaleMetres); // of the scene, in a millimetre
+    const double metres = 0.001 / double(subsurface.scaleMetres); // scene metres in a millimetre
     Profile profile;
     double sum = 0.0;
     for (const scenes::DiffusionGaussian& gaussian : scenes::profileOf(subsurface)) {
         const glm::dvec3 weight(gaussian.weight);
-        // What is faint in the mean may be all that one channel has.
+        // By the largest channel: a term that is faint in the mean may be all that one channel has.
         const double share = std::max({weight.x, weight.y, weight.z});
         profile.terms.push_back({double(gaussian.varianceSquareMillimetres) * metres * metres, weight, share});
         profile.widestMetres = std::max(profile.widestMetres, std::sqrt(profile.terms.back().variance));
@@ -52,7 +52,7 @@ Profile profileInScene(const scenes::Subsurface& subsurface) {
     return profile;
 }
 
-/// How far lines look: beyond, a Gaussian has 4e-6 of its light.
+/// Radius of the sampled surroundings in standard deviations: beyond, a Gaussian has 4e-6 of its light.
 constexpr double kReach = 5.0;
 
 /// All crossings of a line with one object.
@@ -72,7 +72,7 @@ void keepCrossing(const RTCFilterFunctionNArguments* arguments) {
     if (hit && hit->depthMetres >= 0.0 && hit->depthMetres <= line.lengthMetres) line.hits->push_back(*hit);
 }
 
-/// Unit, of the triangle's front.
+/// The unit normal of the triangle's front.
 glm::dvec3 frontOf(const Hit& hit) {
     glm::dvec3 corners[3];
     for (int i = 0; i < 3; ++i) corners[i] = hit.object->cornerRWS(hit.triangle, i);
@@ -101,7 +101,7 @@ struct Diffusion::Surfaces {
     Device device;
     Tree tree;
 
-    /// What enters at a point.
+    /// Light that enters at a point: irradiance times the albedo to the power of preScatterShare.
     glm::dvec3 entering(const Hit& hit, const glm::dvec3& pointRWS) const {
         const SurfacePoint surface = surfaceAt(hit, textures);
         const glm::dvec3 front = frontOf(hit);
@@ -139,7 +139,7 @@ struct Diffusion::Surfaces {
         rayHit.ray.tfar = float(lengthMetres);
         rtcIntersect1(tree.get(), &line, &rayHit);
         std::ranges::sort(hits, {}, &Hit::depthMetres);
-        // Triangles that meet in an edge are crossed once, and Embree may offer a candidate twice.
+        // Merges crossings of triangles that share an edge; Embree may offer a candidate twice.
         const auto isSame = [&](const Hit& a, const Hit& b) {
             return std::abs(a.depthMetres - b.depthMetres) <= 1e-9 * lengthMetres;
         };
@@ -150,7 +150,7 @@ struct Diffusion::Surfaces {
 Diffusion::Diffusion(const Objects& objects, const Textures& textures, std::span<const ShiningLight> lights,
                      const Surroundings& surroundings, const Occlusion& occlusion, const Settings& settings)
     : surfaces_(new Surfaces{objects, textures, lights, surroundings, occlusion, settings, {}, {}}) {
-    // A sum over many points needs fewer rays of each.
+    // The sum over many points needs fewer rays for each.
     surfaces_->settings.leeway = false;
     surfaces_->settings.shadowSamples = 0;
     surfaces_->settings.shadowRings = 2;
@@ -177,7 +177,7 @@ Diffusion::Answer Diffusion::at(const Hit& hit, const glm::dvec3& pointRWS, std:
     const auto pointsOf = [&](std::size_t axis, const Term& term) {
         return std::ceil(kShares[axis] * term.share * double(surfaces_->settings.diffusionPoints));
     };
-    // How many points all lines together put into an area at a place, 1/m^2.
+    // Density of the sample points of all lines together on a surface, 1/m^2.
     const auto density = [&](const glm::dvec3& offset, const glm::dvec3& normal) {
         double sum = 0.0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -190,7 +190,7 @@ Diffusion::Answer Diffusion::at(const Hit& hit, const glm::dvec3& pointRWS, std:
     };
     const double reachMetres = kReach * profile.widestMetres;
     // The fractional parts of multiples of two numbers fill a square evenly (Roberts 2018, "The Unreasonable
-    // Effectiveness of Quasirandom Sequences"); each pixel has them moved.
+    // Effectiveness of Quasirandom Sequences"); each pixel shifts them.
     constexpr double kPlastic = 1.32471795724474602596;
     const glm::dvec2 moved(fraction(double(seed) * 0.5545497), fraction(double(seed) * 0.308517));
     Answer answer;

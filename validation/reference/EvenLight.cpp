@@ -9,7 +9,7 @@ namespace tessera::reference {
 
 namespace {
 
-/// The point with its lobe alone: nothing is reflected below it, and no sheen or coat lies above.
+/// The point with its specular lobe alone: nothing is reflected below it, and no sheen or coat lies above.
 SurfacePoint lobeAlone(const SurfacePoint& point) {
     SurfacePoint lobe = point;
     lobe.transmission = 1.0;
@@ -18,17 +18,17 @@ SurfacePoint lobeAlone(const SurfacePoint& point) {
     return lobe;
 }
 
-/// By a grid of half vectors: circles around the normal, and turns along each.
+/// Integrates over a grid of half vectors: circles around the normal, and azimuths along each.
 glm::dvec3 integrated(const SurfacePoint& lobe, const glm::dvec3& toViewer) {
     constexpr int kCircles = 64, kTurns = 32;
-    constexpr double kGolden = 0.618033988749895; // turns from where one circle begins to where the next does
+    constexpr double kGolden = 0.618033988749895; // turns between the starts of neighbouring circles
     const Model& model = modelOf(lobe.model);
     const ByMicrofacets facets({lobe.alpha, lobe.alphaAcross}, lobe.normal, lobe.tangent, toViewer);
     glm::dvec3 sum(0.0);
     for (int circle = 0; circle < kCircles; ++circle)
         for (int turn = 0; turn < kTurns; ++turn) {
-            // In place of a random number 1 - root^2: circles lie denser where facets lean most, which reflect most at
-            // grazing angles. Its derivative is 2 root.
+            // In place of a random number 1 - root^2 (derivative 2 root): circles are denser where microfacets lean
+            // most, which reflect most at grazing angles.
             const double root = (circle + 0.5) / kCircles, weight = 2.0 * root;
             const double around = (turn + std::fmod(kGolden * circle, 1.0)) / kTurns;
             const glm::dvec3 toLight = facets.direction({1.0 - root * root, around});

@@ -15,8 +15,8 @@ namespace {
 constexpr int kWaveNumbers = 512;
 constexpr double kFirst = 0.9, kLast = 3.1; ///< per micrometre: 323 nm to 1.1 micrometres
 constexpr double kStep = (kLast - kFirst) / kWaveNumbers;
-/// Micrometres: beyond it neighbouring wavelengths interfere so differently that nothing is left of it, and the steps
-/// would be too coarse.
+/// Longest path difference in micrometres. Beyond it interference averages out over neighbouring wavelengths, and the
+/// steps would be too coarse.
 constexpr double kLongestWay = 20.0;
 
 double waveNumberOf(int index) {
@@ -27,7 +27,7 @@ double normalDensity(double x, double mean, double variance) {
     return std::exp(-(x - mean) * (x - mean) / (2.0 * variance)) / std::sqrt(2.0 * std::numbers::pi * variance);
 }
 
-/// How much red, green and blue are of each wave number's reflectance; they sum to 1 by channel.
+/// RGB weights of the reflectance at each wave number; they sum to 1 by channel.
 std::array<glm::dvec3, kWaveNumbers> makeWeights() {
     std::array<glm::dvec3, kWaveNumbers> weights;
     const double first = 5.4856e-13 * std::sqrt(4.3278e9), second = 9.7470e-14 * std::sqrt(4.5282e9);
@@ -48,14 +48,14 @@ std::array<glm::dvec3, kWaveNumbers> makeWeights() {
 }
 
 struct Film {
-    double outer, inner; ///< reflectances of its sides
-    double turn;         ///< 1, or -1 where the inner side turns the phase
-    double way;          ///< micrometres that light is behind after going back and forth
+    double outer, inner; ///< Fresnel reflectances of its interfaces
+    double turn;         ///< 1, or -1 where the inner interface inverts the phase
+    double way;          ///< path difference of a round trip, in micrometres
 
     double passed() const { return (1.0 - outer) * (1.0 - outer) * inner / (1.0 - outer * inner); }
-    /// Without interference.
+    /// Reflectance without interference.
     double mean() const { return outer + passed(); }
-    /// sum of z^m for m = 1 to 4, where z is a way back and forth.
+    /// Reflectance at a wave number, by the sum of z^m for m = 1 to 4, where z is a round trip.
     double at(double waveNumber) const {
         const std::complex<double> z =
             std::polar(std::sqrt(outer * inner), 2.0 * std::numbers::pi * way * waveNumber) * turn;
@@ -75,7 +75,7 @@ double reflectanceOf(const Film& film, int channel) {
 } // namespace
 
 glm::dvec3 filmReflectance(const glm::dvec3& straight, double cosine, double ior, double thicknessNm) {
-    // All lights of a pixel ask for the same.
+    // Cached, since all lights of a pixel need the same.
     struct Answer {
         glm::dvec3 straight{-1.0};
         glm::dvec3 others{0.0}, reflectance{0.0};
@@ -87,13 +87,13 @@ glm::dvec3 filmReflectance(const glm::dvec3& straight, double cosine, double ior
     const auto squared = [](double x) { return x * x; };
     glm::dvec3 reflectance;
     for (int c = 0; c < 3; ++c) {
-        // Schlick's index of a reflectance; a metal's is as good as infinite.
+        // The index of refraction of Schlick's reflectance; a metal's is practically infinite.
         const double root = std::sqrt(std::clamp(straight[c], 0.0, 1.0 - 1e-12));
         const double below = (1.0 + root) / (1.0 - root);
         Film film{};
         film.outer = fresnelSchlick(squared((1.0 - ior) / (1.0 + ior)), 1.0, cosine);
         film.inner = fresnelSchlick(squared((ior - below) / (ior + below)), 1.0, inside);
-        film.turn = (ior - below) / (ior + below) > 1e-5 ? 1.0 : -1.0; // by definition where they are alike
+        film.turn = (ior - below) / (ior + below) > 1e-5 ? 1.0 : -1.0; // -1 by definition where the indices are equal
         film.way = 2e-3 * ior * thicknessNm * inside;
         reflectance[c] = reflectanceOf(film, c);
     }

@@ -9,10 +9,10 @@ namespace {
 
 using scenes::Filter;
 
-/// Beyond this many texels from the picture neighbours cannot be told apart; it also keeps the indices in range.
+/// Clamp of texel coordinates: farther out neighbours are indistinguishable. It also keeps the indices in range.
 constexpr double kFarthest = 1e15;
 
-/// A place along both axes of a level, in texels.
+/// A coordinate on both axes of a level, in texels.
 glm::dvec2 placeIn(const Pyramid& pyramid, int level, const glm::dvec2& texCoord) {
     return glm::clamp(texCoord * glm::dvec2(pyramid.sizeTexels(level)), -kFarthest, kFarthest);
 }

@@ -3,11 +3,11 @@
 
 #include "validation/reference/Pyramid.h"
 
-/// How OpenGL 4.5 (core profile, section 8.14) reads a texture: which level, and which of its texels. A picture with
-/// one level only is what --filter exact means.
+/// Texture filtering by OpenGL 4.5 (core profile, section 8.14): the choice of levels and of their texels. --filter
+/// exact is the case of an image with level 0 alone.
 namespace tessera::reference {
 
-/// What a pixel covers of a texture: the coordinate at its centre, and by how much that changes to the next pixel.
+/// A pixel's footprint in a texture: the coordinate at its centre, and its change to the next pixel.
 struct Footprint {
     glm::dvec2 texCoord{0.0};
     glm::dvec2 dx{0.0}, dy{0.0};
@@ -17,17 +17,16 @@ struct Footprint {
 /// -infinity where the coordinate does not change.
 double levelOf(const Footprint& footprint, glm::ivec2 sizeTexels);
 
-/// The smallest level of detail that OpenGL allows a driver in its place: log2 of the largest change of one coordinate.
+/// The smallest level of detail that OpenGL allows a driver instead: log2 of the largest change of one coordinate.
 double finestLevelOf(const Footprint& footprint, glm::ivec2 sizeTexels);
 
-/// Up to this level of detail, 0 or 1/2, the magnification filter counts (section 8.15).
+/// The level of detail, 0 or 1/2, up to which the magnification filter applies (section 8.15).
 double magnifiedUpTo(const scenes::Sampler& sampler);
 
-/// Whether a filter takes single texels of a level.
+/// Whether a filter takes the nearest texel of a level.
 bool takesNearest(scenes::Filter filter);
 
-/// The texel that the sampler makes of a coordinate at a level of detail, linear. Up to `magnified` its magnification
-/// filter counts.
+/// Samples an image with a sampler at a level of detail; linear. The magnification filter applies up to `magnified`.
 glm::dvec4 filtered(const Pyramid& pyramid, const scenes::Sampler& sampler, const glm::dvec2& texCoord, double level,
                     double magnified);
 

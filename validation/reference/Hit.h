@@ -8,7 +8,7 @@
 
 namespace tessera::reference {
 
-/// Towards which end of its leeway a texture lookup goes: -1, 0 or 1 each.
+/// The end of its tolerance that a texture lookup is moved to: -1, 0 or 1 each.
 struct Nudge {
     glm::ivec2 texCoord{0};
     int level = 0;
@@ -22,17 +22,17 @@ struct Hit {
     std::uint32_t triangle = 0; ///< of the object's mesh
     glm::dvec3 weights{0.0};    ///< barycentric, of the triangle's corners
     double depthMetres = 0.0;   ///< ahead of the eye
-    bool frontFacing = true;    ///< seen from its counter-clockwise side; a mirroring transform turns no side round
-    glm::dvec3 toViewer{0.0};   ///< unit, of a hit of the camera's ray; 0 where nobody looks
+    bool frontFacing = true;    ///< hit on its counter-clockwise side; mirroring transforms swap no sides
+    glm::dvec3 toViewer{0.0};   ///< unit, back along the ray; 0 without a viewer
     /// Change of `weights` from the pixel to the next to the right, and to the one above.
     glm::dvec3 weightsDx{0.0}, weightsDy{0.0};
-    double perspective = 0.0;    ///< relative difference of those changes one pixel further
-    double roundingMetres = 0.0; ///< by how much rounding to fp32 may move the triangle here
-    double roundingPixels = 0.0; ///< by how much it may move the point over the picture
-    double roundingLevels = 0.0; ///< and by how much turn or stretch the triangle, in levels of detail
+    double perspective = 0.0;    ///< relative change of those differentials over a pixel
+    double roundingMetres = 0.0; ///< fp32 rounding error of the triangle's position here
+    double roundingPixels = 0.0; ///< the same for the point's place in the image
+    double roundingLevels = 0.0; ///< the same for the triangle's rotation and scale, in levels of detail
     Nudge nudge;
 
-    /// Whatever the mesh holds a vertex, at the point that is met.
+    /// Interpolates a vertex attribute at the hit.
     template <class Vector, class Stored>
     Vector at(const std::vector<Stored>& vertices) const {
         return weighted<Vector>(vertices, weights);
@@ -49,7 +49,7 @@ struct Hit {
         return sum;
     }
 
-    /// Whatever belongs to each of the mesh's indices, at the point that is met.
+    /// Interpolates an attribute that is stored per index of the mesh.
     template <class Vector>
     Vector atCorners(const std::vector<Vector>& corners) const {
         Vector sum(0.0);
@@ -59,7 +59,7 @@ struct Hit {
     }
 };
 
-/// Where a ray meets the plane of a triangle, which may be outside it; nothing where it runs along it.
+/// Intersects a ray with the plane of a triangle, also outside the triangle; empty if they are parallel.
 std::optional<Hit> hitOf(const Object& object, std::uint32_t triangle, const Ray& ray);
 
 } // namespace tessera::reference

@@ -14,7 +14,7 @@ bool hasAlpha(const SurfacePoint& point) {
     return isMetallic(point) || scenes::infoOf(point.model).isMicrofacet();
 }
 
-/// The surface as the hook gets it: what its model lacks is neutral, and an unlit one shines by its colour.
+/// The hook's input: parameters that the model lacks are neutral, and an unlit colour counts as emission.
 scenes::HookPoint pointOf(const Hit& hit, const SurfacePoint& point) {
     const scenes::Mesh& mesh = *hit.object->mesh;
     const bool isLit = scenes::infoOf(point.model).isLit;
@@ -29,8 +29,8 @@ scenes::HookPoint pointOf(const Hit& hit, const SurfacePoint& point) {
     return result;
 }
 
-/// A number that the hook leaves alone keeps all its digits; another lies from `least` to `most`, or to what it was.
-/// NaN is the least.
+/// Applies a number that the hook changed, clamped to `least` and `most`, or to its old value if that lies outside. NaN
+/// becomes the least. Unchanged numbers keep all digits.
 void take(float before, float after, double least, double most, double& number) {
     if (after == before) return;
     const double low = std::min(number, least), high = std::max(number, most);

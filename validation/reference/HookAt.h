@@ -7,25 +7,25 @@
 
 namespace tessera::reference {
 
-/// The points at which a pixel meets surfaces that its scene's hook changes. First they are asked for, with all that a
-/// pixel does except lighting; once all pixels' are known in one go, the surfaces are lit.
+/// The points at which a pixel meets surfaces that its scene's hook changes. A first pass collects them, with all of a
+/// pixel's work except lighting. The hook then runs once for the points of many pixels, and a second pass lights them.
 class HookPoints {
 public:
-    /// Notes the point, or where points are known changes the surface as the hook says, within what a surface may be.
+    /// Records the point in the first pass; in the second applies the hook's result, clamped to valid values.
     void change(const Hit& hit, SurfacePoint& point);
 
     bool areKnown() const { return areKnown_; }
     std::span<const scenes::HookPoint> asked() const { return asked_; }
-    /// As many as were asked for.
+    /// Sets the hook's results, one for each of asked().
     void know(std::span<const scenes::HookedSurface> surfaces) {
         known_.assign(surfaces.begin(), surfaces.end());
         areKnown_ = true;
     }
 
 private:
-    std::vector<scenes::HookPoint> asked_; ///< each once
+    std::vector<scenes::HookPoint> asked_; ///< without duplicates
     std::vector<scenes::HookedSurface> known_;
-    std::size_t next_ = 0; ///< where the search for a point begins: they are met in the order in which they were asked
+    std::size_t next_ = 0; ///< start of the search: the second pass meets points in the same order
     bool areKnown_ = false;
 };
 

@@ -14,11 +14,11 @@ constexpr double kCoordinateRounding = 4.0 * 0x1p-24;
 /// Rasterisers snap corners to a grid of 1/256 of a pixel, which moves the points between them.
 constexpr double kSnappedPixels = 1.0 / 256.0;
 
-/// Eight bits of a weight between two texels.
+/// Weights between two texels have eight bits.
 constexpr double kWeightTexels = 1.0 / 256.0;
 
-/// One code value: each level rounds its stored texels once more; weights are rounded too, and sRGB is decoded by
-/// less than half of that. OpenGL has no 16-bit sRGB; such pictures are stored as floats.
+/// One code value: each level rounds its stored texels once more, weights are rounded too, and sRGB decoding errs by
+/// less than half of that. OpenGL has no 16-bit sRGB; such images are stored as floats.
 double codesOf(const Pyramid& pyramid) {
     switch (pyramid.image().format) {
     case scenes::TexelFormat::Rgba8Unorm:
@@ -31,8 +31,8 @@ double codesOf(const Pyramid& pyramid) {
     return 0.0;
 }
 
-/// Drivers may shorten the blend between two levels and approximate the logarithm: llvmpipe blends in the middle half
-/// of their distance, up to 1/4 of a level off, and takes log2 as straight between powers of two, up to 0.09 off.
+/// Drivers may shorten the blend between two levels and approximate the logarithm. llvmpipe blends in the middle half
+/// of their distance, up to 1/4 of a level off, and takes log2 as linear between powers of two, up to 0.09 off.
 constexpr double kBlendLevels = 0.35;
 
 glm::dvec2 transformedMagnitudes(const scenes::TextureUse& use, const Footprint& footprint) {
@@ -55,11 +55,11 @@ Leeway leewayOf(Filtering filtering, const scenes::TextureUse& use, const Footpr
     const double level = levelOf(footprint, sizeTexels);
     const double texelOfLevel = std::exp2(std::max(level, 0.0));
     leeway.texCoord += kSnappedPixels * aPixel + kWeightTexels * texelOfLevel / glm::dvec2(sizeTexels);
-    // Drivers take one footprint for a block of 2x2 pixels, by differences.
+    // Drivers take one footprint per block of 2x2 pixels, by differences.
     const double block = 2.0 * hit.perspective * std::numbers::log2e;
     leeway.coarser += kBlendLevels + block;
     leeway.finer += kBlendLevels + block;
-    // Both are endless where the mesh has no coordinates.
+    // Both are -infinity where the mesh has no coordinates.
     const double finest = finestLevelOf(footprint, sizeTexels);
     if (level > finest) leeway.finer += level - finest;
     return leeway;

@@ -26,7 +26,7 @@ double attenuationAt(const scenes::Light& light, double distanceMetres) {
            double(light.attenuation.z) * distanceMetres * distanceMetres;
 }
 
-/// Within an outline, m^2, by the shoelace formula.
+/// The area within an outline, m^2, by the shoelace formula.
 double outlineArea(const scenes::LightCorners& corners) {
     const std::span<const glm::vec2> all = corners.all();
     double twice = 0.0;
@@ -41,8 +41,8 @@ static_assert(scenes::kAreaTypeCount == 5,
               "a new shape needs a case in projectedArea() and boundingRadiusMetres(), and perhaps in "
               "mostProjectedArea()");
 
-/// The projected area of an area light, m^2, by the cosine between its direction and that to the point: on its front
-/// above 0.
+/// The projected area of an area light towards a point, m^2. `cosFront` is the cosine between the light's direction and
+/// that to the point, above 0 on its front.
 double projectedArea(const scenes::Light& light, double cosFront) {
     const double radius = double(light.radiusMetres), circle = std::numbers::pi * radius * radius;
     const double facing = light.isTwoSided ? std::abs(cosFront) : std::max(cosFront, 0.0);
@@ -63,13 +63,13 @@ double projectedArea(const scenes::Light& light, double cosFront) {
     }
 }
 
-/// At least the area that is seen of an area light from any side.
+/// An upper bound of an area light's projected area from any side.
 double mostProjectedArea(const scenes::Light& light) {
     if (light.type == LightType::Tube) return projectedArea(light, 0.0) + projectedArea(light, 1.0);
     return projectedArea(light, 1.0);
 }
 
-/// Of the sphere around an area light's middle that holds it.
+/// Radius of the sphere around an area light's middle that holds it.
 double boundingRadiusMetres(const scenes::Light& light) {
     if (light.type == LightType::Rectangle)
         return 0.5 * std::hypot(double(light.widthMetres), double(light.heightMetres));
@@ -98,7 +98,7 @@ Incident directional(const ShiningLight& shining, const glm::dvec3&) {
     return {-shining.light.directionWS, shining.color};
 }
 
-/// What one with a position sends by its falloff and range, in any direction.
+/// Incident light by falloff and range, for a light with a position that is equal in all directions.
 Incident point(const ShiningLight& shining, const glm::dvec3& positionRWS) {
     const scenes::Light& light = shining.light;
     const glm::dvec3 toLight = shining.positionRWS - positionRWS;
@@ -121,7 +121,7 @@ Incident area(const ShiningLight& shining, const glm::dvec3& positionRWS) {
     const double window = rangeWindow(distance, shining.rangeMetres);
     if (window == 0.0 || distance == 0.0) return {};
     const double projected = projectedArea(shining.light, -glm::dot(shining.light.directionWS, toLight) / distance);
-    // From afar the solid angle; never more than a hemisphere, whose irradiance is pi times the radiance.
+    // From afar by the solid angle; never more than a hemisphere, whose irradiance is pi times the radiance.
     return {toLight / distance,
             shining.mean * shining.color * (window * projected / (distance * distance + projected / std::numbers::pi))};
 }
@@ -158,7 +158,7 @@ double rangeOf(const scenes::Light& light, double brightest, double rangeToleran
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     if (!info.hasPosition()) return kEndless;
     if (info.isArea && std::isinf(light.rangeMetres) && rangeTolerance > 0.0) {
-        // All of it at its nearest place gives more than it does.
+        // An upper bound: all of the surface at its nearest point.
         return boundingRadiusMetres(light) + std::sqrt(brightest * mostProjectedArea(light) / rangeTolerance);
     }
     if (info.isArea || light.falloff == Falloff::InverseSquare) return double(light.rangeMetres);

@@ -36,7 +36,7 @@ LightFace::LightFace(const scenes::Light& light, const glm::dvec3& ahead, double
     sidesMetres_ = {light.widthMetres, light.heightMetres};
     if (!info.hasCorners()) return;
     triangles_ = trianglesWithin(light.corners);
-    // The sum of these, not scenes::signedArea(), by which the product finds what is judged here.
+    // The sum of the triangles, not scenes::signedArea(): the product, which is validated here, uses that one.
     area_ = 0.0;
     for (const Triangle& triangle : triangles_) {
         const double area = areaOf(triangle);

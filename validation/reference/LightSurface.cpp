@@ -21,7 +21,7 @@ glm::dvec3 storedTexel(const scenes::Image& map, int column, int row) {
     return glm::dvec3(texel);
 }
 
-/// Between the centres of four texels; texels count from the picture's top left corner.
+/// Bilinear between the centres of four texels; texels count from the image's top left corner.
 glm::dvec3 factorOf(const scenes::Image& map, const glm::dvec2& texels) {
     const glm::dvec2 fromCentre = glm::clamp(texels - 0.5, glm::dvec2(0.0), glm::dvec2(map.width - 1, map.height - 1));
     const int column = int(fromCentre.x), row = int(fromCentre.y);
@@ -34,7 +34,7 @@ glm::dvec3 factorOf(const scenes::Image& map, const glm::dvec2& texels) {
 
 static_assert(scenes::kFlatTypeCount == 3, "a new shape needs a case in halfSidesOf() and isOnSurface()");
 
-/// Half the sides of the picture.
+/// Half the sides of the light's image, in metres.
 glm::dvec2 halfSidesOf(const scenes::Light& light) {
     if (light.type == LightType::Rectangle) return {0.5 * double(light.widthMetres), 0.5 * double(light.heightMetres)};
     if (light.type == LightType::Disk) return glm::dvec2(double(light.radiusMetres));
@@ -44,7 +44,7 @@ glm::dvec2 halfSidesOf(const scenes::Light& light) {
     return glm::dvec2(farthest);
 }
 
-/// `triangles` are those of a polygon.
+/// Whether a point of the light's plane lies on its surface; `triangles` are those of a polygon.
 bool isOnSurface(const scenes::Light& light, const std::vector<std::array<glm::dvec2, 3>>& triangles,
                  const glm::dvec2& metres) {
     if (light.type == LightType::Rectangle) return true;
@@ -78,7 +78,7 @@ glm::dvec3 LightSurface::factorAt(const glm::dvec3& direction) const {
 
 glm::dvec3 meanFactor(const scenes::Light& light) {
     if (!light.texture || !scenes::infoOf(light.type).isFlat) return glm::dvec3(1.0);
-    constexpr int kSteps = 512; // places across; what uses the mean is rough itself
+    constexpr int kSteps = 512; // points across; the mean serves approximations only
     const scenes::Image& map = light.texture->map;
     std::vector<std::array<glm::dvec2, 3>> triangles;
     if (light.type == LightType::Polygon) triangles = trianglesWithin(light.corners);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSmallestCosine = 1e-6;
 
-/// L(x) of the source's table 1, between its rows for alpha 1 and 0 by (1 - alpha)^2.
+/// L(x) of the source's table 1, interpolated between its rows for alpha 1 and 0 by (1 - alpha)^2.
 double charlieFit(double x, double alpha) {
     const double smooth = (1.0 - alpha) * (1.0 - alpha);
     const double a = std::lerp(21.5473, 25.3245, smooth), b = std::lerp(3.82987, 3.32435, smooth);

@@ -24,7 +24,7 @@ double squaredRoughness(double perceptual) {
     return std::max(perceptual * perceptual, kSmallestAlpha);
 }
 
-/// KHR_materials_anisotropy, and the alpha along the bitangent of models that have two.
+/// Anisotropy by KHR_materials_anisotropy, or by the second alpha of models that have two.
 void setDirection(const Hit& hit, const Textures& textures, SurfacePoint& point) {
     const scenes::Material& material = *hit.object->material;
     const glm::dvec4 texel = texelOf(TextureSlot::Anisotropy, hit, textures);
@@ -36,7 +36,7 @@ void setDirection(const Hit& hit, const Textures& textures, SurfacePoint& point)
     } else if (anisotropy == scenes::Anisotropy::Strength && material.anisotropyStrength > 0.0f) {
         const double strength = double(material.anisotropyStrength) * texel.b;
         point.alpha = std::lerp(point.alpha, 1.0, strength * strength);
-        // Shorter than a hundredth a texel has no direction, by the product's definition.
+        // By the product's definition a texel shorter than a hundredth has no direction.
         const glm::dvec2 stored = 2.0 * glm::dvec2(texel) - 1.0;
         const bool textured = material.texture(TextureSlot::Anisotropy).image != scenes::kNone;
         if (textured && glm::dot(stored, stored) > 1e-4) direction = stored;
@@ -49,7 +49,7 @@ void setDirection(const Hit& hit, const Textures& textures, SurfacePoint& point)
     point.tangent = tangentAt(hit, point.normal, alongTangents(material, TextureSlot::Anisotropy, direction));
 }
 
-/// KHR_materials_iridescence. A film of no thickness is none.
+/// KHR_materials_iridescence. A thickness of 0 means no film.
 void setFilm(const Hit& hit, const Textures& textures, SurfacePoint& point) {
     const scenes::Material& material = *hit.object->material;
     point.filmIor = double(material.iridescenceIor);
@@ -80,7 +80,7 @@ void setTransmission(const Hit& hit, const Textures& textures, SurfacePoint& poi
     if (!scenes::isTransmissive(material)) return;
     if (material.alphaMode != scenes::AlphaMode::Blend) point.opacity = 1.0;
     point.transmission = double(material.transmission) * texelOf(TextureSlot::Transmission, hit, textures).r;
-    point.hasBody = scenes::hasBody(material); // where its texture is 0 too, so that it bends light there
+    point.hasBody = scenes::hasBody(material); // also where its texture is 0: it bends light there too
     const double thickness = double(material.thicknessMetres) * texelOf(TextureSlot::Thickness, hit, textures).g;
     const double distance = double(material.attenuationDistanceMetres);
     point.bodyMetres = thickness;
@@ -129,7 +129,7 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures,
         point.bodyRadiusMetres = hit.object->bodyRadiusMetres;
     }
     point.spreads = method.spreads;
-    // Among what casts no shadows the way inside cannot be found.
+    // The path length inside can only be measured among shadow casters.
     point.passes = method.passes && scenes::castsShadow(material);
     if (point.passes) {
         const double perMillimetre = 1000.0 * double(material.subsurface.scaleMetres);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The factors of microfacet models, in the form the papers print them. In double precision the cancellations that
-/// shaders must avoid cost nothing that matters: 1 - cos^2 keeps ten digits of alpha^2 at the smallest alpha, 1e-3.
+/// Factors of microfacet models, in the form the papers print them. In double precision the cancellations that shaders
+/// must avoid are harmless: 1 - cos^2 keeps ten digits of alpha^2 at the smallest alpha, 1e-3.
 namespace tessera::reference {
 
 /// GGX distribution of normals at the cosine between normal and half vector, in 1/sr; 0 below the horizon.

@@ -15,8 +15,8 @@ glm::dvec3 unitOr(const glm::dvec3& vector, const glm::dvec3& fallback) {
     return length > 0.0 ? vector / length : fallback;
 }
 
-/// The texel's direction in the frame of tangent, bitangent and normal. What the vertices hold is interpolated as it
-/// is; only the sums are normalised, and the bitangent is perpendicular to both for any angle between them.
+/// Transforms a texel's direction from tangent space. Vertex attributes are interpolated unnormalised; only the sums
+/// are normalised. The bitangent is perpendicular to both for any angle between them.
 glm::dvec3 fromTangentSpace(const Hit& hit, const glm::dvec3& texel, const glm::dvec3& vertexNormal) {
     const glm::dvec4 tangentOS = hit.atCorners(*hit.object->tangentsOS);
     const glm::dvec3 tangent = unitOr(glm::dmat3(hit.object->rwsFromObject) * glm::dvec3(tangentOS), glm::dvec3(0.0));
@@ -33,12 +33,12 @@ glm::dvec3 facing(const Hit& hit, const glm::dvec3& normal) {
     return hit.object->material->doubleSided && !hit.frontFacing ? -normal : normal;
 }
 
-/// A texel of a normal map, as its direction.
+/// Decodes a normal map's texel to its direction.
 glm::dvec3 directionOf(scenes::TextureSlot slot, const Hit& hit, const Textures& textures) {
     return 2.0 * glm::dvec3(texelOf(slot, hit, textures)) - 1.0;
 }
 
-/// The cosine between the triangle's own normal and the viewer's direction.
+/// The cosine between the geometric normal and the viewer's direction.
 double facetCosine(const Hit& hit) {
     const glm::dvec3 a = hit.object->cornerRWS(hit.triangle, 0);
     const glm::dvec3 area =
@@ -46,7 +46,7 @@ double facetCosine(const Hit& hit) {
     return std::abs(glm::dot(glm::normalize(area), hit.toViewer));
 }
 
-/// As it is lit: on the side that is seen, and facing whoever looks.
+/// Flips a normal to the visible side and bends it towards the viewer.
 glm::dvec3 turnedTo(const Hit& hit, const glm::dvec3& normal) {
     const glm::dvec3 front = facing(hit, normal);
     if (hit.toViewer == glm::dvec3(0.0)) return front;

@@ -11,8 +11,8 @@ namespace tessera::reference {
 
 namespace {
 
-/// cof M = det(M) M^-T, which carries normals through singular transforms too: rows i, j of M^-T's adjugate are the
-/// minors of M with alternating signs.
+/// cof M = det(M) M^-T, which transforms normals even where M is singular. Its elements are the minors of M with
+/// alternating signs.
 glm::dmat3 cofactorMatrix(const glm::dmat3& m) {
     glm::dmat3 cofactor;
     for (int column = 0; column < 3; ++column) {
@@ -36,7 +36,7 @@ double depthOfBoxCentre(const Object& object, const glm::dvec3& forward) {
     return glm::dot(forward, glm::dvec3(object.rwsFromObject * glm::dvec4(centreOS, 1.0)));
 }
 
-/// What triangles of an object use of its mesh.
+/// Bounds of the vertices that an object's triangles use.
 struct Bounds {
     scenes::Box3 boxRWS;
     double nodeMetres = 0.0; ///< from the node's origin to the box's farthest corner
@@ -61,7 +61,7 @@ struct Range {
     }
 };
 
-/// Whether a ray can hit a mesh, by its box and a little around it.
+/// Whether a ray can hit a mesh, by its slightly enlarged bounding box.
 bool mayHit(const Ray& ray, const scenes::Mesh& mesh, const glm::dmat4& rwsFromObject) {
     const scenes::Box3 boxOS = boxOf(mesh);
     if (boxOS.empty()) return false;
@@ -84,9 +84,9 @@ bool mayHit(const Ray& ray, const scenes::Mesh& mesh, const glm::dmat4& rwsFromO
     return depths.least <= depths.most;
 }
 
-/// Depths at which a box can meet the picture of parallel rays, not closer than they are; nothing where it cannot.
-/// Places of the picture are x right + y up + depth forward, so that the box's extent along each axis of the world
-/// bounds the depth, once x and y are anything that the picture holds.
+/// Depths at which a box can meet the image of parallel rays, within the camera's depths; empty if it cannot. Points of
+/// the view are x right + y up + depth forward, so that the box's extent along each axis of the world bounds the depth
+/// once x and y are limited to the image.
 std::optional<Range> depthsInPicture(const scenes::Box3& boxRWS, const glm::dvec2& half, const CameraRays& rays) {
     const glm::dvec3 centre = 0.5 * (boxRWS.min + boxRWS.max), extent = 0.5 * (boxRWS.max - boxRWS.min);
     const auto along = [&](const glm::dvec3& axis) {
@@ -109,19 +109,19 @@ std::optional<Range> depthsInPicture(const scenes::Box3& boxRWS, const glm::dvec
     return depths;
 }
 
-/// What the product adds to the depths of what it sees, at most: an eighth and 1e-3 of their span, and what rounding to
-/// fp32 may move (renderer/frame/DepthInterval.h).
+/// An upper bound of the product's margin around the depths in view: an eighth and 1e-3 of their span, and the fp32
+/// rounding (renderer/frame/DepthInterval.h).
 double roomMetres(double spanMetres, double acrossMetres, double nodeMetres) {
     return 0.13 * spanMetres + 2e-3 * acrossMetres + 1e-6 * nodeMetres;
 }
 
-/// The product puts its origin amid the depths that it sees, which lie within these.
+/// The product's origin lies in the middle of the depths in view, which are within these.
 Anchor parallelAnchor(const std::vector<Bounds>& all, const CameraRays& rays) {
     Range seen{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     double nodeMetres = 0.0;
     glm::dvec2 largestHalf(0.0);
     for (const Bounds& bounds : all) {
-        // Rounding may move points from just outside the picture into it.
+        // Rounding may move points from just outside the image into it.
         const double farthest = glm::length(glm::max(glm::abs(bounds.boxRWS.min), glm::abs(bounds.boxRWS.max)));
         const glm::dvec2 half = 1.001 * rays.halfExtent() + 2e-6 * farthest;
         const std::optional<Range> depths = depthsInPicture(bounds.boxRWS, half, rays);
@@ -136,8 +136,8 @@ Anchor parallelAnchor(const std::vector<Bounds>& all, const CameraRays& rays) {
             0.5 * span + roomMetres(span, across, nodeMetres)};
 }
 
-/// The product leaves the eye where the farthest depth of what it sees, with its room, is at most twice the nearest;
-/// here all of the scene must be so.
+/// The product moves its origin away from the eye where the farthest depth in view, with its margin, is at most twice
+/// the nearest. Here the whole scene must satisfy that.
 Anchor perspectiveAnchor(const std::vector<Bounds>& all, const CameraRays& rays) {
     scenes::Box3 boundsRWS;
     double nodeMetres = 0.0;
@@ -207,7 +207,7 @@ double Objects::roundingBeyondMetres(const glm::dvec3& placeRWS) const {
                 farthest = std::max(farthest, glm::length(cornerRWS - placeRWS));
                 longest = std::max(longest, glm::length(object.cornerRWS(triangle, (corner + 1) % 3) - cornerRWS));
             }
-            // All of the triangle moves with its corners, and lies at least so far away.
+            // The whole triangle moves with its corners, and is at least this far away.
             metres = std::max(metres, kPositionRounding * (reach - std::max(farthest - longest, 0.0)));
         }
     };

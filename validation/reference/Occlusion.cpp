@@ -15,15 +15,15 @@ namespace tessera::reference {
 
 namespace {
 
-/// Of a light with a size: where rounding moves less, it decides nothing.
+/// Lights with a size: a smaller change of the visible fraction by rounding does not count as undecided.
 constexpr double kDecisiveShare = 0.01;
 
-/// Wrapped light is asked for from above the surface: (this - n.l) radii of the body, where n.l is less.
+/// Shadow rays of wrapped light start above the surface: by (this - n.l) radii of the body, where n.l is less.
 constexpr double kLiftCosine = 0.1;
-/// How far a program's normals are off, beside their texture.
+/// Error of a program's normals, besides that of their texture.
 constexpr double kNormalRounding = 4e-6;
 
-/// Twice what two octahedral coordinates of 12 bits move a direction by.
+/// Twice the angular error of a direction stored as two octahedral coordinates of 12 bits.
 constexpr double kStoredFacetRadians = 2.2e-3;
 
 double liftMetres(const SurfacePoint& surface, const glm::dvec3& toLight) {
@@ -32,7 +32,7 @@ double liftMetres(const SurfacePoint& surface, const glm::dvec3& toLight) {
     return std::max(kLiftCosine - cosine, 0.0) * surface.bodyRadiusMetres;
 }
 
-/// Whether the corners of the triangle have different normals, all close enough to its own, in the mesh's space.
+/// Whether the triangle's corners have different normals, all close enough to the geometric one, in the mesh's space.
 bool isLifted(const Hit& hit) {
     const scenes::Mesh& mesh = *hit.object->mesh;
     glm::dvec3 corners[3], normals[3];
@@ -49,10 +49,10 @@ bool isLifted(const Hit& hit) {
            });
 }
 
-/// Softened terminators: height above a smooth-shaded triangle at which shadow rays start. Hanika 2021 ("Hacking
-/// the Shadow Terminator", Ray Tracing Gems II, chapter 4) projects the point onto the plane through each corner across
-/// its normal, and blends the three by the corners' weights. Here that is a height along the triangle's normal, and
-/// heights below the triangle count against those above. A sum below it lifts the point as far above.
+/// Softened terminators: height above a smooth-shaded triangle at which shadow rays start. Hanika 2021 ("Hacking the
+/// Shadow Terminator", Ray Tracing Gems II, chapter 4) projects the point onto each corner's tangent plane and blends
+/// the three projections by the barycentric weights. Here that is a height along the triangle's normal. Heights below
+/// the triangle are subtracted; a negative sum lifts the point by its magnitude.
 double terminatorLift(const Hit& hit) {
     if (!isLifted(hit)) return 0.0;
     const scenes::Mesh& mesh = *hit.object->mesh;
@@ -70,12 +70,12 @@ double terminatorLift(const Hit& hit) {
     return length > 0.0 ? std::abs(height) / length : 0.0;
 }
 
-/// A program holds that height in steps: it is off by half a twelfth, and little more.
+/// A program quantises that height to twelve steps per power of two. Its error is half a twelfth, and little more.
 constexpr double kLiftSteps = 0.045;
 /// In pixel widths: a program may store smaller heights as 0.
 constexpr double kLiftLeastPixels = 1.0 / 4096.0;
 
-/// How far apart the points are that two pixels show beside each other, the wider way.
+/// Distance between the surface points of neighbouring pixels, the larger of the two directions.
 double pixelMetres(const Hit& hit) {
     glm::dvec3 across(0.0), up(0.0);
     for (int corner = 0; corner < 3; ++corner) {
@@ -89,8 +89,8 @@ double pixelMetres(const Hit& hit) {
 /// A plane through a surface point that hides lights on the side away from the viewer: that of its triangle, or of
 /// its shading normal.
 struct OwnPlane {
-    glm::dvec3 normal{0.0}; ///< unit, towards the viewer; 0 of a triangle without area
-    /// A program stores the normal in 24 bits, and finds it from rounded corners or from rounded points of pixels.
+    glm::dvec3 normal{0.0}; ///< unit, towards the viewer; 0 if the triangle has no area
+    /// A program stores the normal in 24 bits, and derives it from rounded corners or from rounded points of pixels.
     double leewayRadians = 0.0;
 
     OwnPlane(const glm::dvec3& litNormal, double leeway) : normal(litNormal), leewayRadians(leeway) {}
@@ -106,13 +106,13 @@ struct OwnPlane {
         leewayRadians = kStoredFacetRadians + 4.0 * surface.roundingMetres * longest / area + surface.roundingPixels;
     }
     bool hides(const glm::dvec3& toPlace) const { return glm::dot(normal, toPlace) < 0.0; }
-    /// Whether a program may say otherwise of a place, if it also moves the way there by so many metres.
+    /// Whether a program may decide otherwise, if it also moves the direction to the place by `metres`.
     bool isUndecided(const glm::dvec3& toPlace, double metres) const {
         return std::abs(glm::dot(normal, toPlace)) <= leewayRadians * glm::length(toPlace) + metres;
     }
 };
 
-/// The share of a segment that lies inside. Triangles that meet in an edge are crossed once.
+/// The fraction of a segment that lies inside. Crossings of triangles that share an edge are merged.
 double shareInside(std::vector<double> crossings) {
     std::ranges::sort(crossings, {}, [](double crossing) { return std::abs(crossing); });
     const auto isSame = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::abs(a); };
@@ -120,7 +120,7 @@ double shareInside(std::vector<double> crossings) {
     return std::max(std::accumulate(crossings.begin(), crossings.end(), 0.0), 0.0);
 }
 
-/// A segment whose ends move by so many metres across the way, which decides edges, and along it, which decides
+/// A segment with its ends moved by these distances: across it, which decides edges, and along it, which decides
 /// contacts.
 std::array<Segment, 6> movedEnds(const Segment& segment, double pointMetres, double lightMetres) {
     const glm::dvec3 ahead = glm::normalize(segment.along), aside = besideOf(ahead), up = glm::cross(aside, ahead);
@@ -140,14 +140,14 @@ Occlusion::Answer decided(double share) {
     return {share, share, share};
 }
 
-/// What a program may round of a point: so many metres in every direction, and a lifted one by this step up or down.
+/// Rounding error of a ray's start: `metres` in every direction, and for a lifted point this step up or down.
 struct PointLeeway {
     double metres = 0.0;
     glm::dvec3 liftStep{0.0};
     double reachMetres() const { return metres + glm::length(liftStep); }
 };
 
-/// All or nothing of the light at one end of a segment. `own` is null where the point's own triangle does not count.
+/// Visibility of the light at one end of a segment, 0 or 1. `own` is null where the point's own plane does not count.
 Occlusion::Answer decide(const Casters& casters, const Segment& segment, bool isPlaced, const ShiningLight& light,
                          const Hit* surface, const OwnPlane* own, const PointLeeway& point, bool leeway) {
     const bool isBehind = own && own->hides(segment.along);
@@ -159,7 +159,7 @@ Occlusion::Answer decide(const Casters& casters, const Segment& segment, bool is
     if (exact.isUndecided) return undecided;
     const glm::dvec3& along = segment.along;
     const double lightMetres = casters.leewayMetres(isPlaced, light, point.metres, glm::length(along));
-    // Where casters hide the light, the own triangle does not matter.
+    // Where casters hide the light, the point's own triangle does not matter.
     const bool isOwnUndecided = own && own->isUndecided(along, point.reachMetres() + lightMetres);
     if (isBehind && !isOwnUndecided) return decided(0.0);
     if (isOwnUndecided && !exact.isHidden) return undecided;
@@ -175,7 +175,7 @@ Occlusion::Answer decide(const Casters& casters, const Segment& segment, bool is
     return decided(share);
 }
 
-/// Of a segment that begins on the surface, by channel.
+/// Transmittance along a segment that begins on the surface, by channel.
 glm::dvec3 passageAlong(const Casters& casters, const Segment& segment, const Hit& hit, const SurfacePoint& surface) {
     Casters::Met met = casters.meet(segment, &hit, hit.object->material);
     if (met.isHidden) return glm::dvec3(0.0);
@@ -209,7 +209,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     Start above = onTriangle;
     above.terminatorLift = lift;
     Answer answer = from(above, light, settings);
-    // Rounding moves the height as far as the point.
+    // The height's rounding error is as large as the point's.
     if (!settings.leeway || lift > kLiftLeastPixels * pixelMetres(hit) + casters_->leewayMetres(pointRWS))
         return answer;
     const Answer exact = from(onTriangle, light, settings);
@@ -236,16 +236,16 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
     if (distance == 0.0) return {};
     const double radius =
         isPlaced ? scenes::shadowRadiusMetres(light.light) : std::tan(double(light.light.angularRadiusRadians));
-    // Past all casters, where the light has no place.
+    // Without a position the ray ends beyond all casters.
     const double reach = isPlaced ? 1.0 : 2.0 * (casters.radiusMetres() + glm::length(from)) + 1.0;
     const bool wraps = surface.wrap != glm::dvec3(0.0);
     const OwnPlane ownPlane = terminatorLift > 0.0 ? OwnPlane(surface.normal, kNormalRounding) : ownTriangle;
     const OwnPlane* const own = wraps ? nullptr : &ownPlane;
-    // A lifted point may be hidden by its own triangle, but only from what lies behind it.
+    // A lifted point may be hidden by its own triangle, but only from places behind it.
     const bool isBeforeOwn = glm::dot(ownTriangle.normal, toLight) >
                              ownTriangle.leewayRadians * distance + radius + 2.0 * casters.leewayMetres(fromRWS);
     const Hit* const start = lift > 0.0 || (terminatorLift > 0.0 && !isBeforeOwn) ? nullptr : &hit;
-    // A lifted point also moves aside, as the triangle's normal is off.
+    // The error of the triangle's normal also moves a lifted point sideways.
     const double asideMetres =
         terminatorLift > 0.0 ? 0.5 * kStoredFacetRadians * terminatorLift + 2.0 * hit.roundingMetres : 0.0;
     const PointLeeway point{casters.leewayMetres(fromRWS) + (wraps ? kNormalRounding * surface.bodyRadiusMetres : 0.0) +
@@ -254,18 +254,18 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
     const Segment toCentre{from, toLight * reach};
     if (radius == 0.0) return decide(casters, toCentre, isPlaced, light, start, own, point, settings.leeway);
     Answer sum{0.0, 0.0, 0.0};
-    double halves[2] = {0.0, 0.0}; // of every other ray
-    // The outline of an area is cut at the surface already, so only what lies before the own triangle counts.
+    double halves[2] = {0.0, 0.0}; // sums of alternating rays
+    // An area light's outline is already clipped at the surface, so only samples in front of ownPlane count.
     const bool isCut = own && scenes::infoOf(light.light.type).isArea;
     const LightFace face(light.light, toLight / distance, radius);
-    double counted = 0.0; // the share of the face
+    double counted = 0.0; // fraction of the samples
     const auto trace = [&](int rings) {
         halves[0] = halves[1] = 0.0;
         const int sectors = 4 * rings;
         int rays = 0;
         for (int ring = 0; ring < rings; ++ring) {
             for (int sector = 0; sector < sectors; ++sector) {
-                // Rings are turned against each other, so that no straight edge meets many samples at once.
+                // Rings are rotated against each other, so that a straight edge meets few samples at once.
                 const auto fraction = [](double value) { return value - std::floor(value); };
                 const double turn = fraction((sector + 0.6180339887498949 * ring) / sectors);
                 const double third = fraction(0.7548776662466927 * (ring * sectors + sector + 0.5));
@@ -286,8 +286,8 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
         const double error = (halves[0] - halves[1]) / rays;
         sum.noise.ofReference = error * error;
     }
-    // Independent rays would stray by five of these in one case of 10^6; two rays are for distributions far from normal
-    // ones. Where all agree, a program's must too.
+    // Independent rays exceed five standard deviations in one case of 10^6; two rays are added for distributions far
+    // from normal. Where all rays agree, a program's must too.
     const double rays = std::max(counted * double(settings.shadowSamples), 1.0);
     const bool isNoisy = settings.leeway && settings.shadowSamples > 0 && sum.share > 0.0 && sum.share < 1.0;
     const double spread = sum.share * (1.0 - sum.share);
@@ -296,15 +296,15 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
         sum.noise.fourth = spread * (1.0 - 6.0 * spread) / (rays * rays * rays);
     }
     double stray = isNoisy ? 5.0 * std::sqrt(sum.noise.variance) + 2.0 / rays : 0.0;
-    // Where rounding decides whether casters hide the middle of a light, it may decide the rest. That of a polygon may
-    // lie far from its position, in which no ray ends.
+    // Where rounding decides whether casters hide the middle of a light, it may decide the rest. The middle of a
+    // polygon may lie far from its position, where no ray ends.
     const Segment toMiddle{from, (toLight + face.middle()) * reach};
     if (settings.leeway && toMiddle.along != glm::dvec3(0.0) &&
         decide(casters, toMiddle, isPlaced, light, start, nullptr, point, true).isUndecided) {
         stray = 1.0;
         sum.isUndecided = true;
     }
-    // The own triangle's plane may cut the face elsewhere: by the length of the chord there, at most its diameter.
+    // ownPlane may clip the face elsewhere, along a chord of at most the face's diameter.
     const double metres = point.reachMetres() + casters.leewayMetres(isPlaced, light, point.metres, distance * reach);
     const double cut = ownPlane.leewayRadians * std::hypot(distance, face.reachMetres()) + metres / reach;
     if (settings.leeway && own && std::abs(glm::dot(own->normal, toLight)) <= face.reachMetres() + cut) {
@@ -336,7 +336,7 @@ Occlusion::Passage Occlusion::passageOf(const ShiningLight& light, const Hit& hi
         passage.least = glm::min(passage.least, other);
         passage.most = glm::max(passage.most, other);
     }
-    // Of what light from straight behind would give.
+    // As a fraction of the transmitted light if it came from straight behind.
     const glm::dvec3 open = std::abs(glm::dot(surface.normal, glm::normalize(along))) * (passage.most - passage.least);
     passage.isUndecided = std::max({open.r, open.g, open.b}) > kDecisiveShare;
     return passage;

@@ -9,7 +9,7 @@ namespace tessera::reference {
 
 namespace {
 
-/// What one texel of a level covers along one axis of the level before.
+/// Texels of the previous level that one texel of a level covers, along one axis.
 struct Cover {
     int first = 0, last = 0;
     double begin = 0.0, end = 0.0; ///< in texels

@@ -33,7 +33,7 @@ glm::dvec3 blinnPhong(const SurfacePoint& point, const Directions& directions, b
     return brdfCosine;
 }
 
-/// In the frame of tangent, bitangent and normal. Where the lobe has no direction any frame will do.
+/// Transforms to the frame of tangent, bitangent and normal. For isotropic lobes the azimuth is arbitrary.
 glm::dvec3 local(const SurfacePoint& point, const glm::dvec3& direction) {
     const double cosine = glm::dot(point.normal, direction);
     if (point.tangent == glm::dvec3(0.0)) return {std::sqrt(std::max(1.0 - cosine * cosine, 0.0)), 0.0, cosine};
@@ -77,7 +77,7 @@ glm::dvec3 microfacetAnisotropic(const SurfacePoint& point, const Directions& di
     return brdf * directions.cosLight;
 }
 
-/// D G / (4 n.l n.v) of metallic_roughness, by KHR_materials_anisotropy where the lobe has a direction.
+/// D G / (4 n.l n.v) of metallic_roughness, by KHR_materials_anisotropy where the lobe is anisotropic.
 double glossyLobe(const SurfacePoint& point, const Directions& directions) {
     const glm::dvec2 alpha(point.alpha, point.alphaAcross);
     const double cosines = 4.0 * directions.cosLight * directions.cosView;
@@ -85,7 +85,7 @@ double glossyLobe(const SurfacePoint& point, const Directions& directions) {
         return distributionGgx(point.alpha, directions.cosHalf) *
                maskingCorrelated(point.alpha, directions.cosLight, directions.cosView) / cosines;
     }
-    // 1 + lambda(l) + lambda(v), each with the alpha along itself, from 1/G1 = 1 + lambda.
+    // 1 + lambda(l) + lambda(v), each with the alpha along its direction, from 1/G1 = 1 + lambda.
     const double light = 1.0 / maskingSmith(alphaAlong(alpha, local(point, directions.toLight)), directions.cosLight);
     const double view = 1.0 / maskingSmith(alphaAlong(alpha, local(point, directions.toViewer)), directions.cosView);
     return distributionGgx(alpha, local(point, directions.half)) / (light + view - 1.0) / cosines;
@@ -103,7 +103,7 @@ glm::dvec3 underSheen(const SurfacePoint& point, const Directions& directions, c
                                       visibilityCharlie(point.sheenAlpha, directions.cosLight, directions.cosView));
 }
 
-/// KHR_materials_clearcoat: the weight of the coat's lobe; the layers below have the rest.
+/// KHR_materials_clearcoat: the weight of the coat's lobe; the layers below get the rest.
 double coatWeight(const SurfacePoint& point, const glm::dvec3& toViewer) {
     return point.coat * fresnelSchlick(0.04, 1.0, std::abs(glm::dot(point.coatNormal, toViewer)));
 }
@@ -121,7 +121,7 @@ glm::dvec3 underCoat(const SurfacePoint& point, const glm::dvec3& below, const g
     return below * (1.0 - weight) + glm::dvec3(weight * lobe);
 }
 
-/// Of metallic_roughness, for a viewer.
+/// The Fresnel factor of metallic_roughness, for a viewer.
 glm::dvec3 fresnelOf(const SurfacePoint& point, double cosIncidence, double cosView) {
     const ReflectanceRange range = reflectanceRange(point, cosView);
     glm::dvec3 f;
@@ -129,8 +129,7 @@ glm::dvec3 fresnelOf(const SurfacePoint& point, double cosIncidence, double cosV
     return f;
 }
 
-/// glTF 2.0 appendix B. The Fresnel factor needs no lobe: where there is none, what it does not reflect still reaches
-/// the diffuse layer.
+/// glTF 2.0 appendix B. Where there is no lobe, the Fresnel factor still attenuates the diffuse layer.
 glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& directions, bool specular) {
     const bool hasLobe = specular && point.reflectsLobe && directions.hasLobe();
     const double lobe = hasLobe ? glossyLobe(point, directions) : 0.0;
@@ -140,12 +139,12 @@ glm::dvec3 metallicRoughness(const SurfacePoint& point, const Directions& direct
     return underSheen(point, directions, diffuse + f * lobe, specular) * directions.cosLight;
 }
 
-/// Of models whose diffuse reflection is the same in all directions.
+/// For models whose diffuse BRDF is the same in all directions.
 glm::dvec3 colorOf(const SurfacePoint& point, const Directions&) {
     return point.color;
 }
 
-/// What neither the metal, the Fresnel factor nor the sheen keeps out of metallic_roughness.
+/// BRDF of the light that enters metallic_roughness, past metal, Fresnel reflection and sheen.
 glm::dvec3 belowGloss(const SurfacePoint& point, const Directions& directions) {
     Directions lit = directions;
     lit.cosLight = std::max(directions.cosLight, 0.0);
@@ -154,8 +153,8 @@ glm::dvec3 belowGloss(const SurfacePoint& point, const Directions& directions) {
     return underSheen(point, lit, brdf, false);
 }
 
-/// (n.l + w) / (1 + w) instead of n.l where light enters, by channel. Source: Green 2004, "Real-Time Approximations to
-/// Subsurface Scattering", GPU Gems, chapter 16.
+/// Wrapped diffuse light: (n.l + w) / (1 + w) instead of n.l, by channel. Source: Green 2004, "Real-Time Approximations
+/// to Subsurface Scattering", GPU Gems, chapter 16.
 glm::dvec3 wrapped(const SurfacePoint& point, const Directions& directions, const glm::dvec3& highlight) {
     glm::dvec3 cosine;
     for (int c = 0; c < 3; ++c)
@@ -163,7 +162,7 @@ glm::dvec3 wrapped(const SurfacePoint& point, const Directions& directions, cons
     return modelOf(point.model).entering(point, directions) * cosine + highlight;
 }
 
-/// A mirror masks nothing, whatever the option.
+/// Mirrors have no masking, whatever the option.
 glm::dvec3 mirroredByMicrofacet(const SurfacePoint& point, double cosView) {
     return point.specularColor * fresnelDielectric(point.ior, cosView);
 }
@@ -222,11 +221,11 @@ ReflectanceRange reflectanceRange(const SurfacePoint& point, double cosView) {
         range.straight[c] = dielectric + (point.color[c] - dielectric) * point.metallic;
     }
     if (!(point.film > 0.0)) return range;
-    const double cosine = std::clamp(cosView, 0.1, 1.0); // by definition, as Schlick's curve leaves no choice below
+    const double cosine = std::clamp(cosView, 0.1, 1.0); // by definition: at smaller cosines F0 hardly matters
     const glm::dvec3 film = filmReflectance(range.straight, cosine, point.filmIor, point.filmThicknessNm);
     for (int c = 0; c < 3; ++c) {
         const double shown = std::lerp(fresnelSchlick(range.straight[c], range.grazing, cosine), film[c], point.film);
-        // The straight reflectance that shown = straight + (grazing - straight) (1 - cosine)^5 needs.
+        // The straight reflectance that solves shown = straight + (grazing - straight) (1 - cosine)^5.
         const double ofGrazing = std::pow(1.0 - cosine, 5);
         range.straight[c] = std::clamp((shown - range.grazing * ofGrazing) / (1.0 - ofGrazing), 0.0, 1.0);
     }
@@ -290,7 +289,7 @@ glm::dvec3 passingIfNoneReflected(const SurfacePoint& point, const glm::dvec3& t
 glm::dvec3 leftByBody(const SurfacePoint& point, const glm::dvec3& wayMetres) {
     glm::dvec3 left(1.0);
     for (int c = 0; c < 3; ++c)
-        if (wayMetres[c] > 0.0) left[c] = std::exp(-point.bodyPerMetre[c] * wayMetres[c]); // which may have no bound
+        if (wayMetres[c] > 0.0) left[c] = std::exp(-point.bodyPerMetre[c] * wayMetres[c]); // absorption may be infinite
     return left;
 }
 
@@ -298,7 +297,7 @@ std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3&
     const double cosView = glm::dot(point.normal, toViewer);
     const glm::dvec3 outward = cosView < 0.0 ? -point.normal : point.normal;
     const glm::dvec3 across = toViewer - glm::dot(toViewer, outward) * outward;
-    // KHR_materials_ior: 0 is an index without bound.
+    // KHR_materials_ior: an index of 0 stands for infinity.
     const double sine = glm::length(across), bentSine = ior > 0.0 ? sine / ior : 0.0;
     if (!(bentSine <= 1.0)) return std::nullopt;
     const glm::dvec3 along = sine > 0.0 ? across / sine : glm::dvec3(0.0);
@@ -314,7 +313,7 @@ glm::dvec3 iorsOf(const SurfacePoint& point) {
 }
 
 glm::dvec3 leaving(const SurfacePoint& point, const glm::dvec3& toViewer, double preScatterShare) {
-    // By reciprocity as much as would enter from the viewer's mirror image.
+    // By reciprocity as much as would enter from the mirrored direction of the viewer.
     const glm::dvec3 mirrored = 2.0 * glm::dot(point.normal, toViewer) * point.normal - toViewer;
     glm::dvec3 brdf = modelOf(point.model).entering(point, Directions(point.normal, mirrored, toViewer));
     for (int c = 0; c < 3; ++c)

@@ -7,7 +7,7 @@
 
 namespace tessera::reference {
 
-/// A light and a viewer seen from a surface point; all unit.
+/// Directions from a surface point to a light and to the viewer; all unit.
 struct Directions {
     Directions(const glm::dvec3& normal, const glm::dvec3& toLight, const glm::dvec3& toViewer);
     glm::dvec3 normal, toLight, toViewer;
@@ -23,9 +23,9 @@ struct Model {
     scenes::MaterialModel model;
     /// BRDF times max(0, n.l) for a light above the horizon; `specular` false leaves the specular lobe out.
     glm::dvec3 (*reflected)(const SurfacePoint& point, const Directions& directions, bool specular);
-    /// BRDF of the light that enters the surface, for a light anywhere.
+    /// BRDF of the light that enters the surface, for a light in any direction.
     glm::dvec3 (*entering)(const SurfacePoint& point, const Directions& directions);
-    /// What the lobe reflects of the radiance from one direction where it is a mirror; null: it never is.
+    /// Reflectance of the lobe as a mirror; null: it never is one.
     glm::dvec3 (*mirrored)(const SurfacePoint& point, double cosView) = nullptr;
 };
 std::span<const Model> modelTable();
@@ -33,10 +33,9 @@ std::span<const Model> modelTable();
 /// The table's row. Throws std::logic_error when there is none.
 const Model& modelOf(scenes::MaterialModel model);
 
-/// What metallic_roughness reflects of light at its own incidence: Schlick's curve from `straight` at normal incidence
-/// to `grazing`, with the reflectances of KHR_materials_ior and KHR_materials_specular. A film
-/// (KHR_materials_iridescence) bends the curve so that it goes through what the film reflects towards a viewer at a
-/// cosine.
+/// Fresnel reflectance of metallic_roughness: Schlick's curve from `straight` at normal incidence to `grazing`, with
+/// the reflectances of KHR_materials_ior and KHR_materials_specular. A film (KHR_materials_iridescence) changes the
+/// curve so that it passes through the film's reflectance at the viewer's cosine.
 struct ReflectanceRange {
     glm::dvec3 straight{0.0};
     double grazing = 1.0;
@@ -47,39 +46,38 @@ ReflectanceRange reflectanceRange(const SurfacePoint& point, double cosView);
 /// horizon of each layer.
 glm::dvec3 reflected(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer, bool specular);
 
-/// In light from all around lobes of the least alpha are mirrors, by the product's definition.
+/// Under environment light, lobes of the least alpha are mirrors, by the product's definition.
 struct Mirror {
-    glm::dvec3 direction; ///< unit, of what it shows
-    glm::dvec3 share;     ///< of the radiance from there
+    glm::dvec3 direction; ///< unit, of the reflected ray
+    glm::dvec3 share;     ///< reflectance for the radiance from there
 };
 std::vector<Mirror> mirrorsOf(const SurfacePoint& point, const glm::dvec3& toViewer);
-/// The rest of the surface.
+/// The surface without its mirrors.
 SurfacePoint withoutMirrors(const SurfacePoint& point);
 
-/// As reflected(), of light from below the horizon that passes through the surface and leaves it at the angle to the
-/// normal at which it meets it from below.
+/// As reflected(), for light from below the horizon that passes through the surface and keeps its angle to the normal.
 glm::dvec3 passedOn(const SurfacePoint& point, const glm::dvec3& toLight, const glm::dvec3& toViewer);
 
-/// What is left of light behind a surface by what the surface reflects, by channel.
+/// The part of the light behind a surface that the surface does not reflect, by channel.
 glm::dvec3 transmittanceOf(const SurfacePoint& point, const glm::dvec3& toViewer);
-/// What would show through a surface that reflected nothing, of a radiance behind it, before what its body absorbs.
+/// Factor of the radiance behind a surface if it reflected nothing, before absorption by its body.
 glm::dvec3 passingIfNoneReflected(const SurfacePoint& point, const glm::dvec3& toViewer);
-/// What shows through it.
+/// Factor of the radiance behind a surface, before absorption by its body.
 inline glm::dvec3 transmitted(const SurfacePoint& point, const glm::dvec3& toViewer) {
     return passingIfNoneReflected(point, toViewer) * transmittanceOf(point, toViewer);
 }
 
-/// What a body leaves of light that goes so far through it, in metres, by channel. Beer's law.
+/// Transmittance of a body over these path lengths in metres, by channel (Beer's law).
 glm::dvec3 leftByBody(const SurfacePoint& point, const glm::dvec3& wayMetres);
 
-/// Along which the light came, unit, that leaves a body towards the viewer; nothing where none gets out. By Snell's law
-/// for an index of refraction, 0 of which stands for infinity.
+/// The viewer's ray refracted into a body, unit; empty beyond the critical angle. By Snell's law for an index of
+/// refraction, where 0 stands for infinity.
 std::optional<glm::dvec3> refracted(const SurfacePoint& point, const glm::dvec3& toViewer, double ior);
 
 /// The body's index of refraction for red, green and blue. Source: KHR_materials_dispersion.
 glm::dvec3 iorsOf(const SurfacePoint& point);
 
-/// What leaves towards the viewer of light that has spread below the surface.
+/// Factor of diffused irradiance below the surface that leaves towards the viewer.
 glm::dvec3 leaving(const SurfacePoint& point, const glm::dvec3& toViewer, double preScatterShare);
 
 /// Emitted radiance towards the viewer, attenuated by the coat.

@@ -12,7 +12,7 @@ namespace tessera::reference {
 
 namespace {
 
-/// The pixels of a picture, one by one, with what else the definition lets each show.
+/// Renders the pixels of an image one by one, with the alternatives that the definition allows each.
 class Pixels {
 public:
     Pixels(const scenes::Scene& scene, const Settings& settings)
@@ -23,8 +23,8 @@ public:
             pixel(sight_.rays().through(column, row), placeOf(column, row, rendered), rendered, nullptr);
     }
 
-    /// The same where the scene's hook changes surfaces, `points` by column. While they are not known, pixels ask for
-    /// them, and what else is found is forgotten.
+    /// The same where the scene's hook changes surfaces, `points` by column. While they are unknown, pixels only
+    /// collect them, and all other results are discarded.
     void hookedRow(int row, Rendered& rendered, std::span<HookPoints> points) const {
         for (int column = 0; column < rendered.width; ++column) {
             const std::size_t at = placeOf(column, row, rendered);
@@ -82,7 +82,7 @@ private:
         if (isNoiseAlone && alternatives.size() == 1) rendered.shadowNoise[at] = lit.noise;
     }
 
-    /// What a pixel may show in the place of what it does.
+    /// Adds an alternative of a whole pixel, with its tolerances.
     void addOther(Shown other, std::vector<Span>& alternatives) const {
         const glm::dvec3 radiance = shading_.shade(other).radiance;
         alternatives.push_back({radiance, radiance});
@@ -90,7 +90,7 @@ private:
         addShadowLeeway(other, radiance, alternatives);
     }
 
-    /// What surfaces with this radiance may show besides: the ends of each leeway, and by hardware all between them.
+    /// Adds what these surfaces may show besides: the ends of each tolerance, and by hardware all between them.
     void addLeeway(Shown& shown, const glm::dvec3& radiance, std::vector<Span>& alternatives) const {
         if (!sight_.isUndecided(shown.seen)) return;
         Span span{radiance, radiance};
@@ -102,7 +102,7 @@ private:
         if (settings_.filtering == Filtering::Hardware) alternatives.push_back(span);
     }
 
-    /// What the surfaces may show where rounding decides whether a light is hidden: anything from all such lights
+    /// Adds what the surfaces may show where rounding decides whether a light is hidden: anything from all such lights
     /// hidden to none of them.
     void addShadowLeeway(Shown& shown, const glm::dvec3& radiance, std::vector<Span>& alternatives) const {
         const Span span{shading_.shade(shown, {}, Shading::Shadows::Most).radiance,
@@ -116,7 +116,7 @@ private:
     Shading shading_;
 };
 
-/// A few rows at once, which bounds the memory that their points take.
+/// Renders a few rows at once, which bounds the memory of their points.
 void renderHooked(const Pixels& picture, const RunHook& runHook, Rendered& rendered,
                   const std::function<void()>& rowDone) {
     constexpr int kRowsAtOnce = 32;

@@ -10,7 +10,7 @@
 /// Monte Carlo integration over directions.
 namespace tessera::reference {
 
-/// Axes at right angles, all unit.
+/// Orthonormal axes.
 struct Frame {
     glm::dvec3 x, y, z;
     glm::dvec3 out(const glm::dvec3& local) const { return local.x * x + local.y * y + local.z * z; }
@@ -19,19 +19,19 @@ struct Frame {
     }
 };
 
-/// With z along the normal, and x along the tangent if that is not zero.
+/// A frame with z along the normal, and x along the tangent if that is not zero.
 Frame frameOf(const glm::dvec3& normal, const glm::dvec3& tangent = glm::dvec3(0.0));
 
 /// A distribution of unit directions.
 class Strategy {
 public:
     virtual ~Strategy() = default;
-    /// Of two numbers from 0 to 1.
+    /// `random`: two numbers from 0 to 1.
     virtual glm::dvec3 direction(const glm::dvec2& random) const = 0;
     virtual double density(const glm::dvec3& direction) const = 0; ///< 1/sr
 };
 
-/// By the cosine to the normal.
+/// Cosine-weighted directions around the normal.
 class ByCosine : public Strategy {
 public:
     explicit ByCosine(const glm::dvec3& normal) : frame_(frameOf(normal)) {}
@@ -42,8 +42,8 @@ private:
     Frame frame_;
 };
 
-/// Half vectors by GGX, whether the viewer sees such microfacets or not. Source: Walter et al. 2007, equations 35
-/// to 38.
+/// Directions by GGX half vectors, whether the viewer sees such microfacets or not. Source: Walter et al. 2007,
+/// equations 35 to 38.
 class ByMicrofacets : public Strategy {
 public:
     ByMicrofacets(const glm::dvec2& alpha, const glm::dvec3& normal, const glm::dvec3& tangent,
@@ -58,7 +58,7 @@ private:
     glm::dvec3 toViewer_;
 };
 
-/// Half vectors by a power of their cosine.
+/// Directions by half vectors whose density is a power of their cosine.
 class ByPower : public Strategy {
 public:
     ByPower(double exponent, const glm::dvec3& normal, const glm::dvec3& toViewer)
@@ -72,15 +72,15 @@ private:
     glm::dvec3 toViewer_;
 };
 
-/// The cosine, and each lobe of a surface.
+/// The sampling strategies of a surface: the cosine, and each of its lobes.
 std::vector<std::unique_ptr<Strategy>> strategiesOf(const SurfacePoint& point, const glm::dvec3& toViewer,
                                                     bool specular);
 
 struct Estimate {
     glm::dvec3 light{0.0};    ///< radiance towards the viewer
-    glm::dvec3 variance{0.0}; ///< of it: the square of its standard error
+    glm::dvec3 variance{0.0}; ///< the square of the standard error of `light`
 
-    /// Of so many times as much light.
+    /// The estimate for light scaled by a factor.
     Estimate times(const glm::dvec3& factor) const { return {factor * light, factor * factor * variance}; }
     Estimate times(double factor) const { return times(glm::dvec3(factor)); }
     Estimate& operator+=(const Estimate& other) {
@@ -90,8 +90,8 @@ struct Estimate {
     }
 };
 
-/// The integral of `light`, by direction and sr, from `paths` directions of each strategy, weighted by the power
-/// heuristic; its variance is from how far independent parts of the samples differ. Source: Veach 1997, "Robust Monte
+/// Integrates `light` over directions, in sr, by `paths` directions of each strategy, weighted by the power heuristic.
+/// The variance follows from the differences of independent parts of the samples. Source: Veach 1997, "Robust Monte
 /// Carlo Methods for Light Transport Simulation", section 9.2.
 Estimate sampled(std::span<const Strategy* const> strategies, int paths, std::uint32_t seed,
                  const std::function<glm::dvec3(const glm::dvec3& direction)>& light);

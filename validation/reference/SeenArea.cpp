@@ -30,8 +30,8 @@ bool isInTriangle(const glm::dvec2& place, const FlatCorners& triangle) {
 
 } // namespace
 
-/// Corners whose triangle with their neighbours holds no other corner are cut off one by one. Of every simple outline
-/// there is one (Meisters 1975, "Polygons have ears").
+/// Ear clipping: cuts off corners whose triangle with their neighbours holds no other corner. Every simple outline has
+/// one (Meisters 1975, "Polygons have ears").
 std::vector<FlatCorners> trianglesWithin(const scenes::LightCorners& corners) {
     std::vector<glm::dvec2> left(corners.all().begin(), corners.all().end());
     double turn = 0.0;
@@ -47,7 +47,7 @@ std::vector<FlatCorners> trianglesWithin(const scenes::LightCorners& corners) {
             const auto isHeld = [&](const glm::dvec2& corner) {
                 return std::ranges::find(triangle, corner) == triangle.end() && isInTriangle(corner, triangle);
             };
-            // A corner on a straight line bounds nothing, and goes first.
+            // Corners on a straight line are dropped first, without a triangle.
             if (bend == 0.0 || (bend > 0.0 && std::ranges::none_of(left, isHeld))) {
                 ear = i;
                 if (bend != 0.0) triangles.push_back(triangle);
@@ -87,7 +87,7 @@ SeenArea::SeenArea(const ShiningLight& shining, const glm::dvec3& positionRWS, c
         addPolygon(middle, light, front);
     }
     if (isInPlane) {
-        // As from just before it: within its outline it fills half of all directions, elsewhere none.
+        // Taken as just in front of the plane: within the outline the light fills a hemisphere, elsewhere nothing.
         const bool isInOne = std::ranges::any_of(
             patches_, [](const Patch& patch) { return isWithin(patch, patch.frame.in(-patch.middle)); });
         patches_.clear();
@@ -110,7 +110,7 @@ void SeenArea::addSphere(const glm::dvec3& middle, double radiusMetres) {
 void SeenArea::addTube(const glm::dvec3& middle, const scenes::Light& light) {
     const double radius = double(light.radiusMetres), length = double(light.lengthMetres);
     const glm::dvec3& axis = light.directionWS;
-    const double along = -glm::dot(middle, axis); // of the point, from the middle
+    const double along = -glm::dot(middle, axis); // of the point along the axis, from the middle
     if (std::abs(along) > 0.5 * length) {
         const glm::dvec3 front = along < 0.0 ? -axis : axis;
         patches_.push_back({Shape::Disk, middle + 0.5 * length * front, frameOf(front), glm::dvec2(radius)});
@@ -165,7 +165,7 @@ SeenArea::Place SeenArea::at(std::size_t patchNumber, const glm::dvec2& square) 
     const Patch& patch = patches_[patchNumber];
     const Frame& frame = patch.frame;
     const double turn = 2.0 * pi * square.y;
-    // Rings grow with the distance from the middle or the first corner, by which the mean is 1/2.
+    // The area element grows with the distance from the middle or the first corner, whose mean is 1/2.
     const double ring = isFan(patchNumber) ? 2.0 * square.x : 1.0;
     if (patch.shape == Shape::Cone) {
         const double opened = patch.opening * square.x * square.x;
@@ -227,7 +227,7 @@ double SeenArea::density(const Patch& patch, const glm::dvec3& direction) {
     }
     double distance = 0.0, cosine = 0.0;
     if (patch.shape == Shape::Mantle) {
-        // In the plane across the axis, from the point: |t d - m| is the radius.
+        // Intersects the circle |t d - m| = radius in the plane across the axis, from the point.
         const glm::dvec3 d = frame.in(direction), m = frame.in(patch.middle);
         const glm::dvec2 flat(d.x, d.z), to(m.x, m.z);
         const double radius = patch.sizeMetres.x;

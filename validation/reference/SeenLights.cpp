@@ -14,14 +14,14 @@ namespace {
 
 using scenes::LightType;
 
-/// Depths along a ray.
+/// An interval of depths along a ray.
 struct DepthSpan {
     double entry = -std::numeric_limits<double>::infinity();
     double exit = std::numeric_limits<double>::infinity();
 };
 
-/// Where |start + t direction| is at most the radius: between the roots of a t^2 + 2 b t + c. The one in which nothing
-/// cancels is q / a with q = -b - sign(b) sqrt(b^2 - a c), the other c / q.
+/// Depths at which |start + t direction| is at most the radius: between the roots of a t^2 + 2 b t + c. The root
+/// without cancellation is q / a with q = -b - sign(b) sqrt(b^2 - a c), the other c / q.
 std::optional<DepthSpan> withinRound(const glm::dvec3& start, const glm::dvec3& direction, double radius) {
     const double a = glm::dot(direction, direction), b = glm::dot(start, direction),
                  c = glm::dot(start, start) - radius * radius;
@@ -33,14 +33,14 @@ std::optional<DepthSpan> withinRound(const glm::dvec3& start, const glm::dvec3& 
     return DepthSpan{std::min(q / a, c / q), std::max(q / a, c / q)};
 }
 
-/// Where a coordinate that begins at `start` and grows by `step` is at most `most` to either side.
+/// Depths at which a coordinate that begins at `start` and grows by `step` is within -most .. most.
 std::optional<DepthSpan> withinSlab(double start, double step, double most) {
     if (step == 0.0) return std::abs(start) <= most ? std::optional(DepthSpan()) : std::nullopt;
     const double one = (-most - start) / step, other = (most - start) / step;
     return DepthSpan{std::min(one, other), std::max(one, other)};
 }
 
-/// Whether the corners turn about a place, by the sum of the angles under which it sees the edges.
+/// Whether a point is inside an outline, by the sum of the angles that the edges subtend there.
 bool isWithin(const scenes::LightCorners& corners, const glm::dvec2& place) {
     const std::span<const glm::vec2> all = corners.all();
     double turned = 0.0;
@@ -56,11 +56,11 @@ static_assert(
     "a new shape needs a case in entryOf() or entryOfFlat(), which take what they do not know for a tube or a "
     "rectangle");
 
-/// As the two coordinates and the depth that solve middle + x along + y across = origin + t direction.
+/// The depth at which a ray meets a flat light: solves middle + x along + y across = origin + t direction.
 std::optional<double> entryOfFlat(const scenes::Light& light, const glm::dvec3& start, const glm::dvec3& direction) {
     glm::dvec3 along = light.alongWS;
     if (light.type == LightType::Disk) {
-        // A disk may be turned in its plane.
+        // Any axes in its plane serve a disk.
         const glm::dvec3 axes[] = {{1, 0, 0}, {0, 1, 0}};
         along = glm::normalize(glm::cross(light.directionWS, axes[std::abs(light.directionWS.x) > 0.5 ? 1 : 0]));
     }
@@ -135,7 +135,7 @@ std::vector<scenes::Box3> SeenLights::boxesRWS(std::span<const ShiningLight> lig
     std::vector<scenes::Box3> boxes;
     for (const ShiningLight& shining : lights) {
         if (!isShown(shining.light)) continue;
-        // The product's boxes are turned with their lights: their corners lie up to sqrt(2) times as far out.
+        // The product's boxes are rotated with their lights: their corners lie up to sqrt(2) times as far out.
         const glm::dvec3 half(std::numbers::sqrt2 * scenes::surfaceReachMetres(shining.light));
         boxes.push_back({shining.positionRWS - half, shining.positionRWS + half});
     }

@@ -15,14 +15,14 @@ namespace tessera::reference {
 
 namespace {
 
-/// Of Occlusion::Answer and Occlusion::Passage.
+/// The value of an Occlusion::Answer or Occlusion::Passage to shade with.
 auto shareOf(const auto& answer, Shading::Shadows shadows) {
     return shadows == Shading::Shadows::Exact  ? answer.share
            : shadows == Shading::Shadows::Most ? answer.least
                                                : answer.most;
 }
 
-/// By angles to the normal; what is reflected there leaves unbent. An index of 0 is one without bound.
+/// Refracts a ray at the far side, by angles to the normal, or reflects it totally. An index of 0 stands for infinity.
 glm::dvec3 leavingDirection(const glm::dvec3& bent, const glm::dvec3& normal, double ior) {
     const glm::dvec3 outward = glm::dot(normal, bent) < 0.0 ? -normal : normal;
     const double angle = std::acos(std::clamp(glm::dot(outward, bent), -1.0, 1.0)), sine = std::sin(angle);
@@ -33,7 +33,7 @@ glm::dvec3 leavingDirection(const glm::dvec3& bent, const glm::dvec3& normal, do
     return std::cos(leaving) * outward + std::sin(leaving) * glm::normalize(across);
 }
 
-/// A ray that goes on elsewhere, with the footprint that the pixel's own has by then.
+/// A ray that continues elsewhere, with the footprint that the pixel's ray has there.
 Ray bentRay(const Ray& ray, double depthMetres, const glm::dvec3& originRWS, const glm::dvec3& direction) {
     return {originRWS,
             direction,
@@ -81,7 +81,7 @@ Shading::Lit Shading::shade(Shown& shown, const Nudge& nudge, Shadows shadows) c
         const glm::dvec3 before = 1.0 - own.opacity + own.opacity * own.passed;
         all.radianceMore = before * all.radianceMore + own.opacity * (own.radianceMore + own.passedMore * all.radiance);
         all.radiance = own.opacity * own.radiance + before * all.radiance;
-        all.noise = all.noise.times(std::max({before.r, before.g, before.b})); // at most
+        all.noise = all.noise.times(std::max({before.r, before.g, before.b})); // upper bound
         all.noise += own.noise.times(own.opacity);
         all.areaLights = all.areaLights.times(before);
         all.areaLights += own.areaLights.times(own.opacity);
@@ -110,7 +110,7 @@ Shading::Lit Shading::litSurface(Shown& shown, std::size_t surface, const Nudge&
     Lit lit{emitted(point, toViewer), point.opacity};
     if (point.transmission > 0.0) addPassing(shown, hit, point, toViewer, memo, lit);
     if (surroundings_.lights()) {
-        // The rounding that a nudge stands for changes this light less than its samples do.
+        // Reused for nudges: the rounding that they stand for changes this light less than its sampling noise.
         if (!memo.surroundings)
             memo.surroundings = surroundings_.on(point, toViewer, settings_.specular, point.spreads, shown.seed,
                                                  isThroughBody ? shown.throughBodyPaths : settings_.environmentPaths);
@@ -138,8 +138,8 @@ Shading::Lit Shading::litSurface(Shown& shown, std::size_t surface, const Nudge&
     return lit;
 }
 
-/// What shows through: by a body what it bends rays to, and by a rough sheet what is around the viewer's ray, where
-/// that is asked for or an environment lights; else what lies straight behind.
+/// Adds transmitted light. Bodies look along bent rays; with bodiesShowScene, rough sheets look around the viewer's
+/// ray. Otherwise, or with neither surfaces nor an environment to show, the light comes from straight behind.
 void Shading::addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
                          SurfaceMemo& memo, Lit& lit) const {
     const glm::dvec3 entering = passingIfNoneReflected(point, toViewer);
@@ -178,11 +178,11 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, co
     const bool isRough = point.passingAlpha > kSmallestAlpha;
     const glm::dvec3 normal = glm::dot(point.normal, toViewer) < 0.0 ? -point.normal : point.normal;
     const glm::dvec3 entryRWS = ray.at(depthMetres);
-    /// What a ray that goes on inside meets: where it leaves, which way, and the far side.
+    /// The far end of a ray inside a body: its exit point, the direction there, and the far side.
     struct Leaving {
         glm::dvec3 originRWS, direction;
         std::optional<glm::dvec3> normal; ///< on the side of the ray
-        std::optional<double> wayMetres;  ///< up to a back face
+        std::optional<double> wayMetres;  ///< distance inside, up to a back face
     };
     const auto leavingOf = [&](const glm::dvec3& bent, double ior) {
         Leaving found{entryRWS, bent, {}, {}};
@@ -190,9 +190,9 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, co
             found.normal = normal;
             found.direction = -toViewer;
         } else if (settings_.farSide == FarSide::Parallel) {
-            // By the angle inside. The product holds its cosine to 1e-3.
+            // By the angle inside; the product clamps its cosine to at least 1e-3.
             const double toFarSideMetres = point.bodyMetres / std::max(std::abs(glm::dot(bent, point.normal)), 1e-3);
-            // What stands inside, or under the far side itself, is met there.
+            // Objects inside, or at the far side itself, are met there.
             const double upTo = toFarSideMetres * (1.0 + 1e-6);
             if (!showsScene || !meetsAny(bentRay(ray, depthMetres, entryRWS, bent), upTo)) {
                 found.originRWS += toFarSideMetres * bent;
@@ -202,15 +202,15 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, co
         } else if (hasBackFaces(entry)) {
             const Ray inside = bentRay(ray, depthMetres, entryRWS, bent);
             if (std::optional<Hit> leaving = sight_.farSideAhead(inside, *entry.object)) {
-                leaving->toViewer = glm::dvec3(0.0); // who sees its back
+                leaving->toViewer = glm::dvec3(0.0); // no viewer: keeps its normal unbent
                 const glm::dvec3 farNormal = normalAt(*leaving, sight_.textures());
-                // What stands inside is met there, but not what the far side lies on.
+                // Objects inside are met there, but not those that the far side rests on.
                 if (showsScene && meetsAny(inside, leaving->depthMetres * (1.0 - 1e-6))) return found;
                 found.wayMetres = leaving->depthMetres;
                 found.originRWS = inside.at(leaving->depthMetres);
                 found.direction = leavingDirection(bent, farNormal, ior);
                 found.normal = glm::dot(farNormal, bent) < 0.0 ? farNormal : -farNormal;
-                // A reflected ray goes on inside, in all as far as the body is thick.
+                // A reflected ray continues inside, in all at least as far as the body is thick.
                 if (glm::dot(*found.normal, found.direction) > 0.0)
                     found.wayMetres = std::max(
                         *found.wayMetres, point.bodyMetres / std::max(std::abs(glm::dot(bent, point.normal)), 1e-3));
@@ -227,7 +227,7 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, co
         const Facets near(normal, point.passingAlpha, toViewer, ior, Facets::Send::Through);
         if (!isRough || !bent) {
             ways.push_back({middle.originRWS, middle.direction, {}, 1.0});
-        } else if (ior == 0.0) { // by definition its near side alone spreads light, around where that goes
+        } else if (ior == 0.0) { // by definition its near side alone scatters, around the exit direction
             ways.push_back(
                 {middle.originRWS, middle.direction,
                  Facets(-middle.direction, point.passingAlpha, -middle.direction, ior, Facets::Send::Through), 1.0});
@@ -235,7 +235,7 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, co
             ways.push_back({middle.originRWS, middle.direction, near, 1.0});
         } else {
             const bool isReflected = glm::dot(*middle.normal, middle.direction) > 0.0;
-            constexpr int kSide = 6; // of a square of facets of the near side
+            constexpr int kSide = 6; // side of a square grid of microfacets of the near side
             std::mt19937 generator(shown.seed * 2654435761u + 99991u);
             std::uniform_real_distribution<double> uniform(0.0, 1.0);
             for (int i = 0; i < kSide * kSide; ++i) {
@@ -267,8 +267,8 @@ BodyLight Shading::throughBody(const SurfacePoint& point, const Shown& shown, co
     return found;
 }
 
-/// What a bent ray meets; of glass, while any may be met, also all that stands before it, but for a body itself of
-/// which no far side was found.
+/// What a bent ray meets. While further glass may be met, also the transparent surfaces in front, except the body's own
+/// if no far side was found.
 Seen Shading::aheadOf(const Shown& shown, const Hit& entry, const Ray& bent) const {
     if (glassLeft(shown) < 1) return sight_.ahead(bent);
     // The surface that a ray leaves is not met again.
@@ -279,8 +279,8 @@ Seen Shading::aheadOf(const Shown& shown, const Hit& entry, const Ray& bent) con
     return seen;
 }
 
-/// Surfaces and lights along the ways of light, and what is seen between them: the environment that lights the scene,
-/// else the background.
+/// Radiance of surfaces and lights along the paths. Where there are none, that of the environment that lights the
+/// scene, else the background's.
 glm::dvec3 Shading::sceneAround(const Shown& shown, const Hit& entry, std::span<const Scatter> ways) const {
     const auto aheadAlong = [&](const Ray& bent) { return aheadOf(shown, entry, bent); };
     const auto isAny = [](const Seen& seen) { return seen.opaque || seen.light || !seen.transparent.empty(); };
@@ -289,7 +289,7 @@ glm::dvec3 Shading::sceneAround(const Shown& shown, const Hit& entry, std::span<
     };
     const bool hasEnvironment = surroundings_.showsThroughBodies();
     const bool isSpread = std::ranges::any_of(ways, [](const Scatter& way) { return way.facets.has_value(); });
-    // Rough bodies behind one another would cost the product of their paths.
+    // Fewer rays behind a rough body: nested ones cost the product of their rays.
     const int mostPaths = shown.throughBodyPaths > 0 ? std::max(settings_.bodyPaths / 8, 4) : settings_.bodyPaths;
     const int paths = isSpread ? mostPaths : 1;
     std::mt19937 generator(shown.seed * 2654435761u + 54321u);
@@ -319,7 +319,7 @@ glm::dvec3 Shading::sceneAround(const Shown& shown, const Hit& entry, std::span<
             if (!hasEnvironment) surfaces += weight * glm::dvec3(scene_.background);
             continue;
         }
-        // A rough body shows many surfaces in a pixel.
+        // A rough body averages many surfaces in a pixel, with fewer paths for each.
         met.throughBodyPaths = isSpread ? std::max(settings_.environmentPaths / paths, 16) : settings_.environmentPaths;
         met.glassLeft = glassLeft(shown) - 1;
         surfaces += weight * shade(met).radiance;
@@ -331,7 +331,7 @@ glm::dvec3 Shading::sceneAround(const Shown& shown, const Hit& entry, std::span<
     });
 }
 
-/// What all lights below the horizon give.
+/// The transmitted light of all lights below the horizon.
 glm::dvec3 Shading::passedOnBy(const Hit& hit, const SurfacePoint& point, const glm::dvec3& positionRWS,
                                const glm::dvec3& toViewer, Shadows shadows, SurfaceMemo& memo) const {
     glm::dvec3 radiance(0.0);
@@ -359,8 +359,8 @@ Occlusion::Answer Shading::shadowOf(std::size_t light, const Hit& hit, const Sur
     return *known[light];
 }
 
-/// What one light gives to a point that nothing hides from it: radiance towards the viewer. Of light that spreads
-/// only the highlight leaves where it is met.
+/// Unshadowed radiance of one light towards the viewer. Where the surface diffuses light, only the specular part leaves
+/// at the point itself.
 glm::dvec3 Shading::lightOn(const SurfacePoint& point, const ShiningLight& light, const glm::dvec3& positionRWS,
                             const glm::dvec3& toViewer) const {
     const Incident incident = incidentAt(light, positionRWS);
@@ -370,10 +370,10 @@ glm::dvec3 Shading::lightOn(const SurfacePoint& point, const ShiningLight& light
     return share * incident.irradiance;
 }
 
-/// The same of an area light.
+/// The same for an area light.
 Estimate Shading::areaLightOn(std::size_t light, const Nudge& nudge, bool isThroughBody, const SurfacePoint& point,
                               const glm::dvec3& positionRWS, const glm::dvec3& toViewer, SurfaceMemo& memo) const {
-    // What other values of a texture change need not be known better.
+    // Changes by other texture values need less accuracy.
     constexpr double kNudgedTolerance = 1e-3;
     const bool isNudged = !(nudge == Nudge());
     Settings settings = settings_;

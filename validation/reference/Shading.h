@@ -9,52 +9,52 @@
 
 namespace tessera::reference {
 
-/// What a body shows, before it absorbs any of it.
+/// Light that a body transmits, before absorption.
 struct BodyLight {
-    glm::dvec3 radiance{0.0}; ///< of what its rays meet, by channel
-    /// By channel, how far the ray goes inside; none where no far side is found: then the body's thickness counts.
+    glm::dvec3 radiance{0.0}; ///< at the hits of its rays, by channel
+    /// By channel, the path length inside; empty if no far side is found: then the body's thickness counts.
     std::optional<double> wayMetres[3];
 };
 
-/// What was found of the light of a surface: nudges and shadows change less than it takes to find it again.
+/// Cached light of a surface. Nudges and shadow choices reuse it, as they change it too little to compute it again.
 struct SurfaceMemo {
     std::vector<std::optional<Occlusion::Answer>> shadows; ///< by light
     std::vector<std::optional<Occlusion::Passage>> passages;
-    std::vector<std::optional<Estimate>> areaLights; ///< nothing hidden
+    std::vector<std::optional<Estimate>> areaLights; ///< unshadowed
     std::optional<Diffusion::Answer> spread;
     std::optional<Estimate> surroundings;
     std::optional<BodyLight> throughBody;
 };
 
-/// What a ray sees, with what was found of its light.
+/// What a ray meets, with its cached light.
 struct Shown {
     Ray ray;
     Seen seen;
-    std::uint32_t seed = 0;           ///< of Diffusion and Surroundings
+    std::uint32_t seed = 0;           ///< random seed of Diffusion and Surroundings
     HookPoints* hookPoints = nullptr; ///< null where no hook changes surfaces
-    std::vector<SurfaceMemo> memos;   ///< by surface, the opaque one first; those that were lit
-    /// Of the environment, where it is seen along a ray that a body bent; 0: by the camera.
+    std::vector<SurfaceMemo> memos;   ///< by surface, the opaque one first; grows as surfaces are lit
+    /// Environment paths per surface along a ray that a body bent; 0: a camera ray.
     int throughBodyPaths = 0;
-    int glassLeft = 0; ///< of Settings::glassDepth, along such a ray
+    int glassLeft = 0; ///< what is left of Settings::glassDepth along such a ray
 
     bool hasUndecidedShadows() const;
 };
 
-/// How what rays see is lit. May be used by several threads.
+/// Shades what rays meet. May be used by several threads.
 class Shading {
 public:
     /// All must outlive it. Throws as Occlusion and Diffusion.
     Shading(const scenes::Scene& scene, const Settings& settings, const Sight& sight);
 
-    /// What is shown of shadows: the definition's, or where rounding decides all or none of them.
+    /// Which shadows to shade with: the exact ones, or all or none of those that rounding decides.
     enum class Shadows { Exact, Most, Least };
 
     struct Lit {
         glm::dvec3 radiance{0.0};
         double opacity = 1.0;
-        glm::dvec3 passed{0.0};       ///< what it shows, where it covers, of the radiance behind it, by channel
-        glm::dvec3 passedMore{0.0};   ///< besides, by Settings::leastRoughTransmittance
-        glm::dvec3 radianceMore{0.0}; ///< the same
+        glm::dvec3 passed{0.0};       ///< fraction of the radiance behind it that it transmits where it covers
+        glm::dvec3 passedMore{0.0};   ///< transmitted besides, by Settings::leastRoughTransmittance
+        glm::dvec3 radianceMore{0.0}; ///< radiance besides, likewise
         Noise noise = {};             ///< as Rendered::shadowNoise
         Estimate areaLights = {};     ///< as Rendered::areaLights
     };
@@ -65,7 +65,7 @@ private:
     SurfacePoint nudged(Hit hit, const Nudge& nudge, HookPoints* hookPoints) const;
     void addPassing(const Shown& shown, const Hit& hit, const SurfacePoint& point, const glm::dvec3& toViewer,
                     SurfaceMemo& memo, Lit& lit) const;
-    /// How many bodies and sheets rays may meet that this one's surfaces bend.
+    /// How many further bodies and sheets may be met by rays that this surface bends.
     int glassLeft(const Shown& shown) const {
         return shown.throughBodyPaths > 0 ? shown.glassLeft : settings_.glassDepth;
     }

@@ -13,23 +13,23 @@ namespace {
 
 constexpr double kUnboundedMetres = std::numeric_limits<double>::infinity();
 
-/// A pixel's centre and how far from it rounding to fp32 may move what is seen of a light, with room: most of it is
-/// 1e-7 of the picture's width.
+/// A pixel's centre, and offsets beyond the movement of a visible light by fp32 rounding, whose main part is 1e-7 of
+/// the image's width.
 constexpr double kMovedPixels = 1.0 / 64.0;
 constexpr glm::dvec2 kAsidePixels[] = {{0.0, 0.0},
                                        {-kMovedPixels, -kMovedPixels},
                                        {kMovedPixels, -kMovedPixels},
                                        {-kMovedPixels, kMovedPixels},
                                        {kMovedPixels, kMovedPixels}};
-/// And ahead, in parts of what depth values stand for.
+/// The same in depth, relative to the depths that depth values stand for.
 constexpr double kDepthRounding = 4e-6;
 
-/// Triangles in one place: their depths differ by no more than rounding to fp32 may move both.
+/// Coincident triangles: their depths differ by no more than rounding to fp32 may move both.
 bool areCoincident(const Hit& a, const Hit& b) {
     return std::abs(a.depthMetres - b.depthMetres) <= a.roundingMetres + b.roundingMetres;
 }
 
-/// Surfaces with a light before the opaque one; of the transparent ones stay those not behind `depthMetres`.
+/// Surfaces with a light in front of the opaque one; drops transparent surfaces behind `depthMetres`.
 Seen behind(const Seen& surfaces, const std::optional<SeenLights::Met>& light, double depthMetres) {
     Seen seen = surfaces;
     seen.light = light;
@@ -91,7 +91,7 @@ Layers Sight::layersOf(const Ray& ray) const {
     return found;
 }
 
-/// The surfaces that may be the nearest: up to the first that has no hole there within its texture's leeway.
+/// Surfaces that may be the nearest, up to the first without a hole there within its texture's tolerance.
 std::vector<Hit> Sight::candidates(const Ray& ray) const {
     std::vector<Hit> found;
     std::optional<Hit> solid;
@@ -108,7 +108,7 @@ std::vector<Hit> Sight::candidates(const Ray& ray) const {
     return found;
 }
 
-/// From the least to the most that the leeway allows; beyond every cutoff where nothing is cut.
+/// The range of opacities within the texture's tolerance; infinite where no mask cuts.
 std::pair<double, double> Sight::opacitiesOf(Hit hit) const {
     if (hit.object->material->alphaMode != scenes::AlphaMode::Mask) return {kUnboundedMetres, kUnboundedMetres};
     const double own = opacityAt(hit, textures_);

@@ -10,15 +10,15 @@
 
 namespace tessera::reference {
 
-/// What a ray sees.
+/// The surfaces and the light that a ray meets.
 struct Seen {
-    std::optional<Hit> opaque;            ///< nothing where a light hides it
-    std::optional<SeenLights::Met> light; ///< before everything opaque
+    std::optional<Hit> opaque;            ///< empty where a light hides it
+    std::optional<SeenLights::Met> light; ///< in front of everything opaque
     std::vector<Hit> transparent;         ///< in the order in which they are blended
 };
 
-/// What the rays of a camera see of a scene: surfaces and lights, and what else rounding lets a program see. All
-/// functions may be called from several threads.
+/// Primary visibility: the surfaces and lights that camera rays meet, and those that rounding lets a program see
+/// instead. All functions may be called from several threads.
 class Sight {
 public:
     /// The scene must outlive it. Throws as Visibility.
@@ -31,26 +31,26 @@ public:
     /// Whether ahead() may meet anything.
     bool hasOpaque() const { return !objects_.opaque().empty() || seenLights_.areThere(); }
 
-    /// As if no light had a surface.
+    /// The surfaces of a ray, without lights.
     Seen surfacesOf(const Ray& ray) const;
-    /// The same surfaces, where lights do not hide them, and the light.
+    /// The surfaces that lights do not hide, and the light.
     Seen withLight(const Ray& ray, const Seen& surfaces) const;
-    /// The opaque surface or light that any other ray meets from its origin on, however near or far from the camera.
+    /// The opaque surface or light that any other ray meets from its origin on, at any distance from the camera.
     Seen ahead(const Ray& ray) const;
-    /// The same with the transparent surfaces before it but for those so near the origin, the farthest first.
+    /// The same with the transparent surfaces in front, the farthest first, except those closer than `fromMetres`.
     Seen aheadThroughGlass(const Ray& ray, double fromMetres) const;
     /// Where a ray inside a body leaves the object.
     std::optional<Hit> farSideAhead(const Ray& ray, const Object& object) const {
         return visibility_.farSideAhead(ray, object);
     }
-    /// Without lights.
+    /// Triangles along a ray, without lights.
     Layers layersOf(const Ray& ray) const;
 
-    /// What else may be seen of lights at a pixel, where rounding decides: near an outline, or near another surface.
+    /// Other lights that may be visible at a pixel, where rounding decides: near an outline, or near another surface.
     std::vector<Seen> otherLights(const glm::dvec2& placePixels, const Seen& surfaces, const Seen& own) const;
-    /// Others in the place of the opaque surface.
+    /// Other surfaces that coincide with the opaque one.
     std::vector<Hit> coincidentWith(const Ray& ray, const Seen& seen) const;
-    /// Whether a surface's textures may be others.
+    /// Whether a surface's texture lookups may return other values.
     bool isUndecided(const Seen& seen) const;
 
 private:

@@ -33,7 +33,7 @@ bool isUndecided(const scenes::Sampler& sampler, const Footprint& footprint, glm
     return glm::any(glm::lessThanEqual(toEdge, leeway.texCoord * glm::dvec2(sizeTexels)));
 }
 
-/// A texel whose code values are off by `codes`, down or up.
+/// Moves a texel's code values by `codes`, down or up.
 glm::dvec4 recoded(const glm::dvec4& texel, const Pyramid& pyramid, const glm::ivec2& nudge, double codes) {
     if (nudge == glm::ivec2(0) || codes == 0.0) return texel;
     glm::dvec4 result;
@@ -58,7 +58,7 @@ glm::dvec4 texelOf(scenes::TextureSlot slot, const Hit& hit, const Textures& tex
     if (hit.nudge == Nudge()) return filtered(pyramid, use.sampler, footprint.texCoord, level, magnified);
     const Leeway leeway = leewayOf(textures.filtering(), use, footprint, pyramid, hit);
     const glm::dvec2 texCoord = footprint.texCoord + glm::dvec2(hit.nudge.texCoord) * leeway.texCoord;
-    // At the middle of the levels it magnifies wherever it may, at both ends it minifies wherever it may.
+    // The middle level magnifies wherever it may, the end levels minify wherever they may.
     double nudged = level, upTo = magnified + leeway.finer;
     if (hit.nudge.level != 0) {
         nudged += hit.nudge.level > 0 ? leeway.coarser : -leeway.finer;

@@ -42,7 +42,7 @@ glm::dvec3 Surroundings::texel(int column, int row) const {
 }
 
 glm::dvec2 Surroundings::placeOf(const glm::dvec3& direction) const {
-    // Azimuths grow to the right of -Z; the map was turned the other way round.
+    // Azimuths grow to the right of -Z; the map is rotated the other way round.
     const double azimuth = std::atan2(direction.x, -direction.z) + turnRadians_;
     const double turns = azimuth / (2.0 * pi) + 0.5;
     const double elevation = std::asin(std::clamp(direction.y, -1.0, 1.0));
@@ -72,7 +72,7 @@ void Surroundings::makeDensities() {
         const double solidAngle = 2.0 * pi / double(width) * (std::sin(top) - std::sin(top - pi / double(height)));
         double ofRow = 0.0;
         for (std::size_t column = 0; column < width; ++column) {
-            // The brightest around it: interpolation takes light to dark neighbours.
+            // The brightest texel around it: interpolation spreads light to dark neighbours.
             double brightest = 0.0;
             for (int j = -1; j <= 1; ++j)
                 for (int i = -1; i <= 1; ++i) {
@@ -121,8 +121,8 @@ double Surroundings::mapDensity(const glm::dvec3& direction) const {
 
 namespace {
 
-/// What comes out again, in all directions alike, of light that meets a rough lobe more than once: a BRDF. Integrates
-/// the lobe itself, once as it is and once of a metal that absorbs nothing.
+/// Energy compensation: the BRDF of light that a rough lobe scatters more than once, equal in all directions.
+/// Integrates the lobe itself, once as it is and once of a metal that absorbs nothing.
 glm::dvec3 bouncesOf(const SurfacePoint& point, const glm::dvec3& toViewer) {
     if (scenes::infoOf(point.model).microsurface != scenes::Microsurface::MetallicRoughness || !point.reflectsLobe ||
         !(glm::dot(point.normal, toViewer) > 0.0))
@@ -153,7 +153,7 @@ glm::dvec3 bouncesOf(const SurfacePoint& point, const glm::dvec3& toViewer) {
     for (int c = 0; c < 3; ++c) {
         const double straight = range.straight[c];
         const double mean =
-            std::min(straight + (range.grazing - straight) / 21.0, 1.0); // of Schlick's factor by the cosine
+            std::min(straight + (range.grazing - straight) / 21.0, 1.0); // cosine-weighted mean of Schlick's factor
         bounces[c] = once[c] * mean * lost / (1.0 - mean * lost) / pi;
     }
     const double sheen = std::max({point.sheenColor.x, point.sheenColor.y, point.sheenColor.z});
@@ -223,7 +223,7 @@ glm::dvec3 Surroundings::through(std::span<const Scatter> ways, std::uint32_t se
 }
 
 void Surroundings::makeIrradiances() {
-    // The map in blocks, each as the light of its middle: far finer than irradiance changes.
+    // Each block of the map counts as one directional light: blocks are far finer than irradiance changes.
     constexpr int kBlocksAcross = 256;
     const int step = std::max(1, map_->width / kBlocksAcross);
     struct Part {
@@ -241,7 +241,7 @@ void Surroundings::makeIrradiances() {
                     const double azimuth = 2.0 * pi * ((i + 0.5) / map_->width - 0.5) - turnRadians_;
                     const double sine = std::sin(0.5 * (top + bottom)), level = std::cos(0.5 * (top + bottom));
                     part.light += light;
-                    // Where its light comes from; darkness counts a little, so that there is a direction.
+                    // Weighted by brightness; black texels count a little, so that there is a direction.
                     part.direction += (light.r + light.g + light.b + 1e-30) *
                                       glm::dvec3(level * std::sin(azimuth), sine, -level * std::cos(azimuth));
                 }

@@ -10,26 +10,26 @@
 
 namespace tessera::reference {
 
-/// Light from everywhere: the scene's environment, by Monte Carlo integration in double precision. Directions are
-/// sampled by the map's texels and by the surface (Sampling.h). May be used by several threads.
+/// Environment lighting, by Monte Carlo integration in double precision. Directions are sampled by the map's texels and
+/// by the surface (Sampling.h). May be used by several threads.
 class Surroundings {
 public:
     /// The scene must outlive it.
     Surroundings(const scenes::Scene& scene, const Settings& settings);
 
     bool lights() const { return lights_; } ///< whether there is any light that surfaces reflect
-    /// Whether bodies of what transmits show it, however dark it is.
+    /// Whether transmissive bodies show it, however dark it is.
     bool showsThroughBodies() const { return showsThroughBodies_; }
-    bool isSeen() const { return isSeen_; } ///< where nothing is drawn
-    /// From a unit direction, world axes.
+    bool isSeen() const { return isSeen_; } ///< visible where nothing is drawn
+    /// Radiance from a unit direction, world axes.
     glm::dvec3 radianceOf(const glm::dvec3& direction) const;
 
-    /// What a surface reflects of it; `onlyLobes` leaves out what enters the surface.
+    /// Environment light that a surface reflects; `onlyLobes` leaves out light that enters the surface.
     Estimate on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
                 std::uint32_t seed) const {
         return on(point, toViewer, specular, onlyLobes, seed, paths_);
     }
-    /// The same with so many directions of each kind.
+    /// The same with `paths` directions of each strategy.
     Estimate on(const SurfacePoint& point, const glm::dvec3& toViewer, bool specular, bool onlyLobes,
                 std::uint32_t seed, int paths) const;
 
@@ -37,16 +37,16 @@ public:
     using IsHidden = std::function<bool(const glm::dvec3& originRWS, const glm::dvec3& direction)>;
     glm::dvec3 through(std::span<const Scatter> ways, std::uint32_t seed, const IsHidden& isHidden) const;
 
-    /// On a surface that faces this way, interpolated between directions three degrees apart.
+    /// Irradiance of a surface with this normal, interpolated between directions three degrees apart.
     glm::dvec3 irradiance(const glm::dvec3& normal) const;
 
 private:
     class ByMap;
-    /// With the density of the map's texels.
+    /// A direction with the density of the map's texels.
     glm::dvec3 ofMap(const glm::dvec2& random) const;
     double mapDensity(const glm::dvec3& direction) const;
     glm::dvec3 texel(int column, int row) const;
-    /// Texels from the left and from the top.
+    /// The map's texel coordinates of a direction, from the left and from the top.
     glm::dvec2 placeOf(const glm::dvec3& direction) const;
     void makeDensities();
     void makeIrradiances();
@@ -55,7 +55,7 @@ private:
     double intensity_ = 0.0, turnRadians_ = 0.0;
     bool lights_ = false, showsThroughBodies_ = false, isSeen_ = false, compensates_ = false;
     int paths_ = 0;
-    std::vector<double> rowsSummed_, columnsSummed_; ///< shares of rows, and of the columns of each row, up to each
+    std::vector<double> rowsSummed_, columnsSummed_; ///< cumulative fractions of rows, and of the columns of each row
     std::vector<double> densities_;                  ///< by texel, 1/sr
     std::vector<glm::dvec3> irradiances_;            ///< by direction
 };

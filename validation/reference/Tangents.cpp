@@ -16,13 +16,13 @@ namespace {
 /// Directions in object space in which the texture coordinates grow.
 struct Growth {
     glm::dvec3 u{0.0}, v{0.0};
-    double area = 0.0; ///< of the triangle in the texture, of either sign
+    double area = 0.0; ///< of the triangle in the texture, signed
 };
 
 /// A direction whose tangential fraction is below this lies along the normal, up to rounding.
 constexpr double kSmallestShare = 1e-12;
 
-/// Radians round a vertex that rounding makes of slivers.
+/// Angle at a vertex, in radians, that rounding can give slivers.
 constexpr double kSmallestAngle = 1e-9;
 
 glm::dvec3 madeUnit(const glm::dvec3& vector, const glm::dvec3& fallback) {
@@ -36,7 +36,7 @@ glm::dvec3 perpendicularTo(const glm::dvec3& n) {
     return {1.0 - sign * n.x * n.x / (sign + n.z), -sign * n.x * n.y / (sign + n.z), -sign * n.x};
 }
 
-/// A mesh's triangles as its texture sees them.
+/// A mesh's triangles in texture coordinates.
 class Texture {
 public:
     Texture(const scenes::Mesh& mesh, const scenes::Material& material) : mesh_(mesh) {
@@ -45,7 +45,7 @@ public:
         textureFromUv_ = textureFromUv(material, slot);
     }
 
-    /// By solving [edge1 edge2] = [u v] [uv1 uv2], then the chain rule; v upwards. Zero where there is no area.
+    /// Solves [edge1 edge2] = [u v] [uv1 uv2], then applies the chain rule; v upwards. Zero without texture area.
     Growth growthOf(std::size_t triangle) const {
         const auto at = [&](std::size_t k) { return glm::dvec3(mesh_.positionsOS[mesh_.indices[3 * triangle + k]]); };
         const auto uvAt = [&](std::size_t k) { return uv(mesh_.indices[3 * triangle + k]); };
@@ -73,7 +73,6 @@ private:
     glm::dmat2 textureFromUv_{1.0};
 };
 
-/// One of three a triangle.
 struct Corner {
     std::size_t triangle = 0;
     std::size_t k = 0;
@@ -121,7 +120,7 @@ private:
     }
     int vertexOf(const Corner& corner) const { return vertices_[corner.index()]; }
 
-    /// Gives equal elements the same number.
+    /// Gives equal vertices the same number.
     void weld(const Texture& texture) {
         std::map<std::array<double, 8>, int> known;
         std::vector<int> numbers;
@@ -134,7 +133,7 @@ private:
         for (const std::uint32_t index : mesh_.indices) vertices_.push_back(numbers[index]);
     }
 
-    /// A side waits, by where it runs from and to, for the first that runs back.
+    /// Pairs each edge with the first unpaired one in the opposite direction.
     void meetNeighbours() {
         std::map<std::pair<int, int>, std::list<Corner>> waiting;
         for (std::size_t i = 0; i < 3 * triangles_; ++i) {
@@ -152,12 +151,12 @@ private:
         }
     }
 
-    /// The corners round the vertex of `first` on one side, `first` left out. They count as met from then on.
+    /// Visits the corners round the vertex of `first` on one side, and returns them without `first`.
     std::vector<Corner> walk(const Corner& first, bool isLeft) {
         std::vector<Corner> met;
         Corner corner = first;
         while (true) {
-            // Across the side that ends here, its neighbour's begins here; across the one that begins here, it ends.
+            // Across the edge that ends here the neighbour's begins here; across the one that begins here it ends.
             const std::optional<Corner> side = neighbours_[(isLeft ? corner.previous() : corner).index()];
             if (!side) return met;
             corner = isLeft ? *side : side->next();
@@ -186,7 +185,7 @@ private:
             if (!hasUvArea_[corner.triangle]) continue;
             const glm::dvec3 one = flat(at(corner.next()) - at(corner)),
                              other = flat(at(corner.previous()) - at(corner));
-            // Kahan's angle between two vectors of one length.
+            // Kahan's angle between two vectors of equal length.
             const double angle = 2.0 * std::atan2(glm::length(one - other), glm::length(one + other));
             const glm::dvec3 direction = flat(growth_[corner.triangle].u);
             const bool standsUp = one == glm::dvec3(0.0) || other == glm::dvec3(0.0);
@@ -216,9 +215,9 @@ private:
     std::vector<int> vertices_;                       ///< welded, by corner
     std::vector<Growth> growth_;                      ///< by triangle
     std::vector<std::optional<double>> orientations_; ///< by triangle, once it is known
-    std::vector<bool> hasUvArea_;                     ///< by triangle: its own texture tells its hand
-    std::vector<std::optional<glm::dvec4>> tangents_; ///< by corner, once it is met
-    std::vector<std::optional<Corner>> neighbours_;   ///< by corner: where the neighbour's side begins that runs back
+    std::vector<bool> hasUvArea_;                     ///< by triangle: its texture area gives its orientation
+    std::vector<std::optional<glm::dvec4>> tangents_; ///< by corner, once visited
+    std::vector<std::optional<Corner>> neighbours_;   ///< by corner: start of the neighbour's opposite edge
 };
 
 /// Lengyel 2001.
@@ -247,7 +246,7 @@ std::vector<glm::dvec4> summed(const scenes::Mesh& mesh, const Texture& texture)
     return tangents;
 }
 
-/// The mesh's own, about the normal by the angle between the texture's u and the coordinates'.
+/// The mesh's own tangents, rotated about the normal by the angle between the texture's u and the coordinates'.
 std::vector<glm::dvec4> turned(const scenes::Mesh& mesh, const Axis& axis) {
     std::vector<glm::dvec4> tangents;
     for (const std::uint32_t vertex : mesh.indices) {

@@ -16,11 +16,11 @@ double linearFromSrgb(double code);
 /// The code value of a linear one, both 0..1.
 double srgbFromLinear(double linear);
 
-/// One texel as linear values; float pictures hold linear colours whatever the transfer function. `column` and `row`
-/// must lie inside.
+/// One texel as linear values; float images hold linear colours whatever the transfer function. `column` and `row` must
+/// lie inside.
 glm::dvec4 texelAt(const scenes::Image& image, Transfer transfer, int column, int row);
 
-/// A texel index brought inside 0 .. size - 1.
+/// Wraps a texel index into 0 .. size - 1.
 int wrapped(long long index, int size, scenes::Wrap wrap);
 
 /// offset + rotation(scale * uv), after KHR_texture_transform.

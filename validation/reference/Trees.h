@@ -6,8 +6,8 @@
 
 #include "validation/reference/Objects.h"
 
-/// Embree's trees of the reference's triangles, in single precision. They find candidates; who asks judges them in
-/// double precision.
+/// Embree trees of the reference's triangles, in single precision. They find candidates; callers test these in double
+/// precision.
 namespace tessera::reference {
 
 struct ReleaseDevice {
@@ -22,12 +22,12 @@ using Tree = std::unique_ptr<RTCSceneTy, ReleaseTree>;
 /// Throws std::runtime_error when Embree does not start.
 Device makeDevice();
 
-/// The objects' triangles relative to `centreRWS`. `judge` is called with each candidate and its object as the
-/// geometry's user pointer. Throws std::runtime_error when Embree fails, as for lack of memory.
+/// Builds a tree of the objects' triangles, relative to `centreRWS`. Calls `judge` with each candidate, with its object
+/// as the geometry's user pointer. Throws std::runtime_error when Embree fails, as for lack of memory.
 Tree makeTree(RTCDevice device, const std::vector<const Object*>& objects, const glm::dvec3& centreRWS,
               RTCFilterFunctionN judge);
 
-/// A ray of any length that meets everything, and has met nothing yet.
+/// An unbounded ray without a hit.
 RTCRayHit rayFrom(const glm::vec3& origin, const glm::vec3& direction);
 
 } // namespace tessera::reference

@@ -11,7 +11,7 @@ namespace tessera::reference {
 
 namespace {
 
-/// Where along the ray everything still lies ahead.
+/// A place along the ray in front of all visible points.
 double startOf(const Ray& ray, const Anchor& anchor) {
     if (anchor.radiusMetres == 0.0) return 0.0;
     const double length = glm::length(ray.direction);
@@ -25,9 +25,9 @@ struct Query : RTCIntersectContext {
     const Textures* textures = nullptr;
     double nearMetres = 0.0, farMetres = 0.0;
     std::optional<Hit> nearest;
-    std::vector<Hit>* all = nullptr; ///< where every hit is wanted, not the nearest
+    std::vector<Hit>* all = nullptr; ///< collects every hit, not only the nearest
     bool masksHaveHoles = true;
-    const Object* backsOf = nullptr; ///< back faces of this one alone count
+    const Object* backsOf = nullptr; ///< only back faces of this object count
 };
 
 std::optional<Hit> keptHit(const Object& object, std::uint32_t triangle, const Query& query) {
@@ -56,8 +56,8 @@ void judgeCandidate(const RTCFilterFunctionNArguments* arguments) {
         query.nearest = hit;
 }
 
-/// Relative error in depth of a hit by Embree's single precision, besides the rounding of positions; the
-/// double one decides.
+/// Relative depth error of Embree's single precision, besides the rounding of positions. The hit in double precision
+/// decides.
 constexpr double kDepthSlack = 1e-4;
 
 void trace(RTCScene tree, const Objects& objects, Query& query) {
@@ -137,8 +137,8 @@ std::vector<Hit> Visibility::transparentBefore(const Ray& ray, double depthMetre
     Query query = trees_->queryOf(ray, depthMetres);
     query.all = &hits;
     trace(trees_->transparent.get(), trees_->objects, query);
-    // Objects lie in their order of drawing, so their addresses tell it, and of each those triangles come first that
-    // face away; Embree may offer a candidate twice.
+    // Objects are stored in drawing order, so addresses compare by it. The back faces of an object come before its
+    // front faces. Embree may offer a candidate twice.
     const auto drawnBefore = [](const Hit& a, const Hit& b) {
         return std::tuple(a.object, a.frontFacing, a.triangle) < std::tuple(b.object, b.frontFacing, b.triangle);
     };

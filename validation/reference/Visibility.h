@@ -8,9 +8,9 @@
 
 namespace tessera::reference {
 
-/// Which triangles a pixel's ray sees. Embree finds the candidates in single precision; every one is met again in
-/// double and kept when the camera's depths hold it, its material shows that side, and its alpha mask has no hole
-/// there. All functions may be called from several threads.
+/// The triangles along a pixel's ray. Embree finds candidates in single precision; each is intersected again in double
+/// and kept if it lies within the camera's depths, its material shows that side, and its alpha mask has no hole there.
+/// All functions may be called from several threads.
 class Visibility {
 public:
     /// The objects must outlive it. Throws std::runtime_error when Embree fails, as for lack of memory.
@@ -20,16 +20,16 @@ public:
     /// The nearest opaque or alpha-masked surface.
     std::optional<Hit> nearestOpaque(const Ray& ray) const;
 
-    /// The same along any other ray, from its origin on, however near or far from the camera.
+    /// The same along any other ray from its origin on, at any distance from the camera.
     std::optional<Hit> nearestOpaqueAhead(const Ray& ray) const;
 
-    /// Where a ray inside a body leaves the object: the nearest of its triangles ahead that show the ray their back.
+    /// The exit of a ray from the inside of a body: the nearest back face of the object ahead.
     std::optional<Hit> farSideAhead(const Ray& ray, const Object& object) const;
 
-    /// Transparent surfaces along any other ray, from a depth on, not behind another, the farthest first.
+    /// Transparent surfaces along any other ray, from `fromMetres` to `depthMetres`, the farthest first.
     std::vector<Hit> transparentAhead(const Ray& ray, double fromMetres, double depthMetres) const;
 
-    /// Every opaque or alpha-masked surface not behind `depthMetres`, the nearest first; masks have no holes.
+    /// Every opaque or alpha-masked surface not behind `depthMetres`, the nearest first; holes of masks are ignored.
     std::vector<Hit> opaqueBefore(const Ray& ray, double depthMetres) const;
 
     /// Transparent surfaces not behind `depthMetres`, in the order in which they are blended.

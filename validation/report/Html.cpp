@@ -34,7 +34,7 @@ std::string escapedHtml(std::string_view text) {
 }
 
 std::string escapedWhole(std::string_view text) {
-    constexpr std::size_t kMostBytes = 24; // what is longer has no room in a narrow window
+    constexpr std::size_t kMostBytes = 24; // longer words do not fit a narrow window
     constexpr std::string_view kGaps = " \n\t";
     std::string html;
     while (!text.empty()) {
@@ -59,7 +59,7 @@ std::string base64(std::span<const std::uint8_t> bytes) {
     text.reserve((bytes.size() + 2) / 3 * 4);
     for (std::size_t i = 0; i < bytes.size(); i += 3) {
         const std::size_t count = bytes.size() - i < 3 ? bytes.size() - i : 3;
-        std::uint32_t group = 0; // up to three bytes, the first in the highest place
+        std::uint32_t group = 0; // up to three bytes, the first in the highest bits
         for (std::size_t j = 0; j < count; ++j) group |= std::uint32_t(bytes[i + j]) << (16 - 8 * j);
         for (std::size_t j = 0; j < 4; ++j) text += j <= count ? kDigits[group >> (18 - 6 * j) & 63] : '=';
     }

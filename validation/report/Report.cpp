@@ -41,7 +41,7 @@ constexpr const char* kBenchToRead =
 std::string_view asset(std::string_view path) {
     for (const EmbeddedFile& file : reportAssets())
         if (file.path == path) return file.text;
-    throw std::logic_error(fmt::format("{} is not embedded", path)); // the build names both files
+    throw std::logic_error(fmt::format("{} is not embedded", path)); // the build embeds every file that is named here
 }
 
 std::string verdictHtml(const CompareRecord& record) {
@@ -72,7 +72,7 @@ std::string pictureHtml(const Report& report, const ReportPicture& picture) {
                        escapedHtml(picture.name), escapedHtml(picture.caption));
 }
 
-/// What the page is about; the first picture is here, and the others follow below.
+/// The head of the page, with its subject and the first image; the other images follow below.
 std::string mastheadHtml(const Report& report) {
     const CompareRecord& record = report.record;
     std::string html =
@@ -140,7 +140,7 @@ std::string scriptHtml(std::string_view script) {
 } // namespace
 
 std::string reportHtml(const Report& report) {
-    // The empty icon keeps browsers from asking a server for one.
+    // The empty icon keeps browsers from requesting one from a server.
     return fmt::format("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\" />\n"
                        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\" />\n"
                        "<meta name=\"generator\" content=\"tessera\" />\n<link rel=\"icon\" href=\"data:,\" />\n"

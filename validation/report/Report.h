@@ -9,7 +9,7 @@
 namespace tessera::validation {
 
 struct ReportPicture {
-    std::string name;    ///< what the pairs call it, such as "forward"
+    std::string name;    ///< its name in pairs, such as "forward"
     std::string caption; ///< one line below it; may be empty
     Png image;
 };
@@ -29,7 +29,7 @@ struct ReportPlan {
     std::string text; ///< as `tessera plan` prints it
 };
 
-/// The parts of a page that tell a benchmark, as HTML (validation/bench/BenchHtml.h).
+/// A benchmark's parts of a page, as HTML (validation/bench/BenchHtml.h).
 struct ReportBench {
     std::string answer;   ///< below the title: which technique, how much faster, at what error
     std::string sections; ///< plots and tables
@@ -38,7 +38,7 @@ struct ReportBench {
 /// The contents of a report. Texts are plain: characters with a meaning in HTML are escaped.
 struct Report {
     std::string title;    ///< such as "hall, rendered four ways"
-    CompareRecord record; ///< scene, size, renderer and the pairs, of which there may be none beside a bench
+    CompareRecord record; ///< scene, size, renderer and pairs; a bench may have no pairs
     std::optional<ReportBench> bench;
     std::string choice;            ///< which technique to take here and why, one plain sentence; may be empty
     std::vector<ReportFact> facts; ///< shown below the title
@@ -48,9 +48,8 @@ struct Report {
     std::vector<std::string> commands; ///< each reproduces a part of the page
 };
 
-/// One page of HTML that needs nothing else: pictures, style and script are inside, and nothing is fetched. A pair
-/// whose two pictures are both given gets a before/after slider; without script the pictures still show. Write it with
-/// writeFileAtomically().
+/// A self-contained HTML page with embedded images, style and script. A pair with both of its images gets a
+/// before/after slider; without scripts the images still show. Write it with writeFileAtomically().
 std::string reportHtml(const Report& report);
 
 } // namespace tessera::validation

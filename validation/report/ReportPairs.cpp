@@ -69,7 +69,7 @@ std::string allFiguresHtml(const ErrorFigures& figures) {
     return html + "</dl>\n";
 }
 
-/// The slider is built by report.js; `hidden` keeps it away where there is no script.
+/// The slider is built by report.js; `hidden` hides its place if scripts are off.
 std::string sliderHtml(const Report& report, const ComparePair& pair) {
     const std::string left = pictureId(report, pair.b), right = pictureId(report, pair.a);
     if (left.empty() || right.empty()) return "";

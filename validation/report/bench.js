@@ -1,6 +1,6 @@
 "use strict";
 
-/** The plots of a benchmark's page, from the JSON that the page carries. */
+/** The plots of a benchmark's page, from the JSON embedded in the page. */
 (() => {
     const source = document.getElementById("bench-data");
     if (!source || typeof Chart === "undefined") return;
@@ -41,15 +41,15 @@
                 if (value >= axis.min * 0.999 && value <= axis.max * 1.001) ticks.push({ value });
             }
         }
-        // Where everything that was measured is the same, that alone: its padded range is a tenth of a decade.
+        // One tick if all measured values are equal: their padded range is a tenth of a decade.
         axis.ticks = ticks.length && decades > 0.11 ? ticks : [{ value: Math.sqrt(axis.min * axis.max) }];
     }
 
-    /** A number that was counted: exact, with its thousands apart, as long as it stays short. */
+    /** A count: exact, with thousands separators, as long as it is short. */
     const counted = (value) =>
         Number.isInteger(value) && value < 1e7 ? value.toLocaleString("en-US") : plain(value);
 
-    /** Ticks where something was measured, as many as have room for their names. */
+    /** Ticks at measured values, as many as fit with their labels. */
     function measuredTicks(values) {
         const sorted = [...new Set(values)].sort((a, b) => a - b);
         return (axis) => {
@@ -74,7 +74,7 @@
         };
     }
 
-    /** A range that leaves a share of the axis free on both sides. */
+    /** The range of the values, padded on both sides by a fraction of its length. */
     function padded(values, share) {
         const low = Math.log10(Math.min(...values)), high = Math.log10(Math.max(...values));
         const room = Math.max((high - low) * share, 0.05);
@@ -97,7 +97,7 @@
         };
     }
 
-    /** Draws a plot now and whenever `draw` is asked to; tells on the canvas what it shows. */
+    /** Draws a plot now and whenever the returned function is called; data-points of the canvas is its number of marks. */
     function plot(canvasId, configure, drawn = () => {}) {
         const canvas = document.getElementById(canvasId);
         let chart = null;
@@ -115,7 +115,7 @@
         return draw;
     }
 
-    /** Names beside the marks that the text speaks of. */
+    /** Draws the names of labelled marks beside them. */
     const names = {
         id: "names",
         afterDatasetsDraw(chart) {
@@ -123,7 +123,7 @@
             context.save();
             context.font = "600 " + Chart.defaults.font.size + "px " + Chart.defaults.font.family;
             context.fillStyle = variable("--ink");
-            context.strokeStyle = variable("--card"); // around the letters, on lines and marks that they cross
+            context.strokeStyle = variable("--card"); // outlines letters over lines and marks
             context.lineWidth = 4;
             context.lineJoin = "round";
             context.textBaseline = "middle";
@@ -134,7 +134,7 @@
                 chart.getDatasetMeta(i).data.forEach((mark, j) => {
                     const label = set.data[j].label;
                     if (!label) return;
-                    // Of the places around the mark, the first that crosses the fewest marks and no edge.
+                    // The first place around the mark that overlaps the fewest marks and no edge.
                     const width = context.measureText(label).width, reach = 18, half = Chart.defaults.font.size / 2 + 2;
                     const places = [
                         { x: mark.x - width / 2, y: mark.y - reach - half },
@@ -161,7 +161,7 @@
     function frontConfiguration(group) {
         const measured = group.points.filter((point) => point.relMse !== null);
         const positive = measured.map((point) => point.relMse).filter((value) => value > 0);
-        // A logarithmic axis has no place for 0: the pictures that are the truth lie on its lower end.
+        // A logarithmic axis cannot show 0: images without error lie on its lower end.
         const zero = positive.length ? 10 ** (Math.floor(Math.log10(Math.min(...positive))) - 1) : 1e-12;
         const place = (point) => ({ x: point.ms, y: point.relMse > 0 ? point.relMse : zero, point });
         const datasets = data.techniques
@@ -208,7 +208,7 @@
                 pointStyle: "circle",
             });
         }
-        // What the shapes mean stands in the legend without marks of its own.
+        // Legend entries for the meaning of shapes have no marks.
         const shown = kinds.filter((kind) => measured.some((point) => point.mark === kind));
         if (shown.length > 1) {
             for (const kind of shown) {
@@ -253,9 +253,9 @@
     const drawFront = plot("front-plot", () => frontConfiguration(data.groups[groupChoice.value]));
     groupChoice.addEventListener("change", drawFront);
 
-    const kManyCurves = 16; // of which those of one mark are shown at first
+    const kManyCurves = 16; // with more curves, only those of one mark are visible at first
     const dashes = [[], [9, 4], [3, 3], [12, 3, 3, 3], [1.5, 2.5], [6, 2, 1.5, 2, 1.5, 2]];
-    /** How far a technique's colour goes to the ink's, or below 0 to the card's, by the culling method. */
+    /** How far a technique's colour is mixed with the ink's, or below 0 with the card's, per culling method. */
     const shades = [0, 0.35, -0.35, 0.55, -0.55, 0.2];
 
     function mixed(colour, other, share) {
@@ -284,7 +284,7 @@
         star: '<path d="M-5 0H5M0-5V5M-3.5-3.5 3.5 3.5M-3.5 3.5 3.5-3.5" />',
     };
 
-    /** A button for each curve, under one for all of its technique: a canvas has no room for so many names. */
+    /** A button per curve, below one per technique: a legend on the canvas cannot fit so many names. */
     function buildLegend(chart, legend) {
         const sets = chart.data.datasets.map((set, i) => ({ ...set, i }));
         const buttons = [];
@@ -379,7 +379,7 @@
         scalingChoice.addEventListener("change", drawScaling);
     }
 
-    /** A slider between any two pictures of a group. */
+    /** A slider between any two images of a group. */
     document.querySelectorAll(".viewer").forEach((viewer) => {
         const pictures = [...viewer.querySelectorAll("img.picture")];
         const place = viewer.querySelector(".stage-place");

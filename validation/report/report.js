@@ -1,6 +1,6 @@
 "use strict";
 
-/** A before/after slider from two pictures of the page; the range control beneath makes it work by keyboard too. */
+/** Builds a before/after slider from two images of the page; its range input supports the keyboard, too. */
 function buildSlider(figure) {
     const stage = document.createElement("div");
     stage.className = "stage";

@@ -1,5 +1,4 @@
-// Materials: the radiance that a surface reflects to a viewer, by the product's own shader on the GPU against the
-// reference in double.
+// Materials: reflected radiance of the product's shader on the GPU against the reference in double precision.
 #include <algorithm>
 #include <cmath>
 
@@ -22,9 +21,9 @@ namespace tessera::validation {
 
 namespace {
 
-/// Surfaces of one material in one run of the shader.
+/// Surfaces of one material per shader dispatch.
 constexpr std::size_t kBatch = 16384;
-/// Materials of a model with random directions, full effort: 5 models x 125 x 16384 > 10^7 samples.
+/// Materials per model at full effort: 5 models x 128 x 16384 > 10^7 samples.
 constexpr int kMaterials = 128;
 constexpr double kTolerance = 3e-4;
 constexpr const char* kReason =
@@ -32,7 +31,7 @@ constexpr const char* kReason =
     "else loses digits: alpha/0.002, cos/0.001 near the horizon, |l+v|^2, 3e-4/5e-3 at a critical angle, and the "
     "azimuth of h where masking goes by it";
 
-/// A batch as both sides take it: each surface is a triangle whose corners are one vertex.
+/// A batch for both sides: each surface is a triangle whose corners are one vertex.
 struct Surfaces {
     scenes::Mesh mesh;
     std::vector<glm::dvec4> tangents; ///< by index
@@ -58,8 +57,9 @@ struct Surfaces {
     }
 };
 
-/// The same for masking by the alpha along the projection of h (Walter), which turns with the azimuth of h: rounding
-/// turns that the more, the closer h is to n, and the visibility changes with it by twice the ratio of the alphas.
+/// The error weight of masking by the alpha along the projection of h (Walter), which depends on the azimuth of h.
+/// Rounding turns the azimuth more the closer h is to n, and visibility changes with it by twice the ratio of the
+/// alphas. Negative: undecided.
 double azimuthWeight(const scenes::Material& material, const reference::Directions& directions) {
     if (scenes::infoOf(material.model).anisotropy != scenes::Anisotropy::Alphas ||
         material.masking != scenes::Masking::Walter)
@@ -74,15 +74,15 @@ double azimuthWeight(const scenes::Material& material, const reference::Directio
     return change > 0.1 ? -1.0 : std::min(1.0, kTolerance / change);
 }
 
-/// The weight of a relative error: the fraction of single precision's digits that the directions leave. Negative
-/// where the answer hangs on the sign of a rounding error.
+/// The weight of a relative error: the fraction of fp32 precision that the directions leave. Negative where the sign of
+/// a rounding error decides the result.
 double weightOf(const scenes::Material& material, double sharpness, const reference::Directions& directions) {
     constexpr double kUndecided = 3e-7; // five roundings of a unit vector's dot product
     const double cosLight = std::abs(directions.cosLight), cosView = std::abs(directions.cosView);
     const double apart = glm::length(directions.toLight + directions.toViewer);
     if (cosLight < kUndecided || cosView < kUndecided || apart < 1e-5) return -1.0;
     double weight = std::min(1.0, sharpness / 0.002) * std::min(1.0, cosLight / 1e-3) * std::min(1.0, cosView / 1e-3);
-    // What has no highlight knows no half vector: it is right where l = -v, too.
+    // Models without a highlight use no half vector, so they are accurate at l = -v, too.
     if (scenes::infoOf(material.model).highlight != scenes::Highlight::None) weight *= std::min(1.0, apart * apart);
     const double azimuth = azimuthWeight(material, directions);
     if (azimuth < 0.0) return -1.0;
@@ -92,7 +92,7 @@ double weightOf(const scenes::Material& material, double sharpness, const refere
     return weight;
 }
 
-/// The error of one surface, or nothing where it is undecided.
+/// The weighted error of one surface, unless it is undecided.
 struct Compared {
     double rel = 0.0;
     bool undecided = false;
@@ -105,14 +105,14 @@ Compared compared(const glm::vec4& shown, const reference::SurfacePoint& point, 
     const double weight = weightOf(material, sharpness, reference::Directions(point.normal, toLight, toViewer));
     if (weight < 0.0) return {0.0, true};
     const glm::dvec3 truth = reference::reflected(point, toLight, toViewer, true);
-    // A channel's error is relative to the surface's brightest channel, so a fraction of 1e-9 beside k_d near 0 does
-    // not matter. Loss below the least normal number, 1.2e-38, counts 1e-4 at most.
+    // Errors are relative to the surface's brightest channel, so a residue of 1e-9 in a channel with k_d near 0 does
+    // not matter. Losses below the smallest normal number, 1.2e-38, count 1e-4 at most.
     const double brightest = std::max({truth.r, truth.g, truth.b, 1.2e-34});
     const glm::dvec3 difference = glm::abs(glm::dvec3(shown) - truth);
     return {weight * std::max({difference.r, difference.g, difference.b}) / brightest, false};
 }
 
-/// The product's defines for materials of a model, as a scene of them has them.
+/// The product's shader defines for a scene with a material of the model.
 shader::Defines definesOf(scenes::MaterialModel model) {
     scenes::Scene scene;
     scenes::Material material;
@@ -162,7 +162,7 @@ private:
             reference::Hit hit;
             hit.object = &object;
             hit.triangle = std::uint32_t(i);
-            hit.weights = glm::dvec3(1.0, 0.0, 0.0); // its corners are one
+            hit.weights = glm::dvec3(1.0, 0.0, 0.0); // all corners are one vertex
             results[i] = compared(out[i], reference::surfaceAt(hit, {}), surfaces.views[i], material, sharpness);
         });
         for (std::size_t i = 0; i < out.size(); ++i) {
@@ -194,7 +194,7 @@ scenes::Material materialOf(const StressModel& model, StressRandom& random) {
     return material;
 }
 
-/// Random materials of a model under every placing of light and viewer; every other batch is wholly random.
+/// Random materials of a model under every placement of light and viewer; every second batch uses random directions.
 void sweepModel(StressBench& bench, const StressModel& model, StressFigures& figures) {
     StressRandom random(20240 + std::uint64_t(model.model));
     Reflection reflection(bench, model);
@@ -208,7 +208,7 @@ void sweepModel(StressBench& bench, const StressModel& model, StressFigures& fig
     }
 }
 
-/// One placing of light and viewer with random materials of every model.
+/// One placement of light and viewer with random materials of every model.
 void sweepDirection(StressBench& bench, const StressDirection& direction, StressFigures& figures) {
     StressRandom random(777);
     const int materials = bench.effort() == StressEffort::Full ? 64 : 16;

@@ -1,5 +1,4 @@
-// Light from everywhere where maps make it stiff: of one texel or one row, black, with all light in one texel, and of
-// any magnitude.
+// Environment light from degenerate maps: one texel, one row, black, all light in one texel, and any magnitude.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -48,7 +47,7 @@ std::vector<StressPicture> evenMaps(StressEffort) {
         environment.rotationDegrees = rotationDegrees;
         StressPicture picture{std::move(what), surrounded(std::move(environment)),
                               surroundedSettings(EnvironmentLight::SplitSum)};
-        constexpr double kNoise = 30.0; // of the reference's samples, and of lobes with two alphas
+        constexpr double kNoise = 30.0; // for noise of the reference's samples, and for lobes with two alphas
         if (pictures.empty())
             picture.allowed = kNoise;
         else
@@ -64,14 +63,14 @@ std::vector<StressPicture> evenMaps(StressEffort) {
     return pictures;
 }
 
-/// A map and what multiplies it: pictures are as many times as bright, whatever the number.
+/// Multiplies maps by factors: images must change by the same factors.
 void measureRadiance(StressBench& bench, StressFigures& figures) {
     const std::pair<const char*, std::function<glm::dvec3(int, int)>> maps[] = {
         {"a bright texel", [](int x, int y) { return glm::dvec3(x == 9 && y == 5 ? 1000.0 : 0.0); }},
         {"a half", [](int, int y) { return glm::dvec3(y < kMapHeight / 2 ? 1.0 : 0.0); }},
         {"noise", [](int x, int y) { return glm::dvec3((x * 7919 + y * 104729) % 1009, 1.0, x) / 100.0; }},
         {"black", [](int, int) { return glm::dvec3(0.0); }}};
-    // A power of 2 changes no digit.
+    // Multiplying by a power of 2 is exact.
     const int exponents[] = {0, -60, -20, 20, 60};
     std::size_t done = 0;
     for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
@@ -92,7 +91,7 @@ void measureRadiance(StressBench& bench, StressFigures& figures) {
                     figures.count(std::span(&seen[i], 3));
                     for (std::size_t c = i; c < i + 3; ++c) {
                         const double now = double(bench.measuredTimes()) * double(seen[c]) / factor;
-                        const double least = 1e-6; // of the brightness around it, which is some hundredth
+                        const double least = 1e-6; // floor for dark pixels; brightness around them is some hundredth
                         figures.error(std::abs(now - double(plain[c])) / (std::abs(double(plain[c])) + least), [&] {
                             return fmt::format("{}, {}, times 2^{}", infoOf(light).name, name, exponent);
                         });

@@ -1,4 +1,4 @@
-// Meshes and normal maps with nothing where something is expected.
+// Degenerate meshes and normal maps: zero lengths, zero areas and missing attributes.
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ StressPicture pictureOf(std::string what, scenes::Scene scene) {
     return {std::move(what), std::move(scene), exactSettings()};
 }
 
-/// Everything but the floor has a normal map of this texel.
+/// The stress scene with a uniform normal map on everything except the floor.
 scenes::Scene mappedScene(const glm::ivec4& texel, scenes::NormalMapSpace space) {
     scenes::Scene scene = stressScene();
     const int image = addUniformImage(scene, texel);
@@ -54,14 +54,14 @@ std::vector<StressPicture> normalMapPictures(StressEffort) {
     return pictures;
 }
 
-/// Code values 127 and 128 are the nearest to a normal of no length that 8 bits hold.
+/// Code values 127 and 128: the shortest normals that 8 bits can store.
 std::vector<StressPicture> shortNormalPictures(StressEffort) {
     return {
         pictureOf("texels of 1/255, tangent space", mappedScene({127, 128, 128, 255}, scenes::NormalMapSpace::Tangent)),
         pictureOf("texels of 1/255, object space", mappedScene({127, 128, 127, 255}, scenes::NormalMapSpace::Object))};
 }
 
-/// Texels of exactly (1/2, 1/2, 1/2), which 8 bits cannot hold: normals of no length.
+/// Texels of exactly (1/2, 1/2, 1/2), normals of zero length, which 8 bits cannot store.
 std::vector<StressPicture> zeroNormalPictures(StressEffort) {
     std::vector<StressPicture> pictures;
     for (const auto space : {scenes::NormalMapSpace::Tangent, scenes::NormalMapSpace::Object}) {
@@ -81,11 +81,11 @@ std::vector<StressPicture> zeroNormalPictures(StressEffort) {
     return pictures;
 }
 
-/// The scene with tangent-space normal maps, and its meshes changed.
+/// The scene with tangent-space normal maps and modified meshes.
 template <class Change>
 StressPicture changedMeshes(const char* what, Change change) {
     scenes::Scene scene = mappedScene({180, 100, 220, 255}, scenes::NormalMapSpace::Tangent);
-    // Where the meshes leave the tangent open, any is right, and a lobe that has a direction may point anywhere.
+    // Meshes without a defined tangent allow any, so the lobes are isotropic and do not depend on it.
     for (scenes::Material& material : scene.materials) material.alphaY = material.alpha;
     for (scenes::Mesh& mesh : scene.meshes) change(mesh);
     return pictureOf(what, std::move(scene));

@@ -1,4 +1,4 @@
-// What one light sends to a point: the product's packed lights read by its own shader, against the reference in double.
+// Irradiance of single lights at points: the product's packing and shader against the reference in double precision.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -40,9 +40,9 @@ reference::Incident truthAt(const Light& light, const glm::dvec3& positionWS) {
     return shining.empty() ? reference::Incident{} : reference::incidentAt(shining.front(), positionWS);
 }
 
-/// The cone's factor, and how much it changes at most when what decides it is off by four roundings of fp32: the angle
-/// at the light, since the ray is rounded when it is subtracted and when it is made unit, and the axis when it is
-/// packed, and each of the two cosines' distances from 1 (of a wide cone, -1), relative to it.
+/// The cone's factor, and its largest change when its inputs are off by four roundings of fp32. The inputs are the
+/// angle at the light, whose ray is rounded by subtraction and normalisation and whose axis is rounded by packing, and
+/// the distances of both cosines from 1 (for a wide cone, -1), relative to these distances.
 struct Cone {
     double factor = 1.0;
     double condition = 0.0;
@@ -65,9 +65,9 @@ Cone coneOf(const Light& light, const glm::dvec3& positionWS) {
     return {factor, std::max(squared(open + move) - factor, factor - squared(open - move))};
 }
 
-/// Of an area light without range: the light itself, and what changes of it with the area P that it shows. Rounding
-/// of P is relative to the largest P; the light is P / (d^2 + P / pi), of which the derivative is (1 - light / pi)^2 /
-/// d^2.
+/// The error scale of an area light without range: its irradiance, and the change of that with the visible area P.
+/// Rounding of P is relative to the largest P; the irradiance is P / (d^2 + P / pi), whose derivative is (1 -
+/// irradiance / pi)^2 / d^2.
 double scaleOfArea(Light light, const glm::dvec3& positionWS) {
     if (!scenes::hasSurface(light)) return 0.0;
     const double largest = scenes::largestSeenArea(light);
@@ -81,8 +81,8 @@ double scaleOfArea(Light light, const glm::dvec3& positionWS) {
     return arriving + radiance * largest * dark * dark / glm::dot(toLight, toLight);
 }
 
-/// The scale of relative errors: the light without range, times the sum of the cone's factor and its condition over the
-/// tolerance. 0 where the light is certain to be 0.
+/// The scale of relative errors: the irradiance without range, times the sum of the cone's factor and its condition
+/// over the tolerance. 0 where the irradiance is certainly 0.
 double scaleOf(const Light& light, const glm::dvec3& positionWS) {
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     if (info.isArea) return scaleOfArea(light, positionWS);
@@ -111,7 +111,7 @@ void measure(StressBench& bench, const std::vector<Light>& lights, const std::ve
     scene.lights = lights;
     frame::FrameSettings settings;
     settings.prune = false; // every light keeps its index
-    // The eye is the world's origin, so that world and lighting space are one.
+    // The eye is at the world origin, so that world and lighting space coincide.
     const frame::CameraView view =
         frame::makeCameraView(scenes::Camera{}, {64, 64}, frame::LightingSpace::World, glm::vec3(0.0f));
     const frame::LightBuffer buffer(frame::packLights(scene, view, settings), frame::allFeatures());
@@ -124,19 +124,19 @@ void measure(StressBench& bench, const std::vector<Light>& lights, const std::ve
         const Light& light = lights[probes[i].light];
         const glm::dvec3 positionWS(probes[i].positionWS);
         figures.count({&out[2 * i].x, 3});
-        // Directions have negative components, which count as nothing wrong.
+        // Components of directions may be negative, so only NaN and infinity count.
         const glm::vec3 direction = glm::abs(glm::vec3(out[2 * i + 1]));
         StressFigures bad;
         bad.count({&direction.x, 3});
         figures.nan += bad.nan;
         figures.infinite += bad.infinite;
-        // At the light itself there is no direction, and so no reflected light for any intensity.
+        // At the light's position there is no direction, and so no reflected light at any intensity.
         if (scenes::infoOf(light.type).hasPosition() && light.positionWS == positionWS) {
             ++figures.undecided;
             continue;
         }
         const reference::Incident truth = truthAt(light, positionWS);
-        const double scale = std::max(scaleOf(light, positionWS), 1e-37); // below is no normal number in fp32
+        const double scale = std::max(scaleOf(light, positionWS), 1e-37); // near fp32's smallest normal number
         figures.error(std::abs(double(out[2 * i].x) - truth.irradiance.x) / scale,
                       [&] { return describe(light, probes[i].positionWS); });
     }
@@ -149,7 +149,7 @@ Light pointLight(float intensity, float rangeMetres = scenes::kInfinity) {
     return light;
 }
 
-/// Points at every power of ten of a distance from the origin, 0 too, in a few directions.
+/// The origin, and points in random directions at every power of ten from 1e-6 m to 1e6 m.
 std::vector<glm::vec3> pointsAround(StressRandom& random, int perDecade) {
     std::vector<glm::vec3> points{glm::vec3(0.0f)};
     for (int decade = -6; decade <= 6; ++decade)
@@ -198,7 +198,7 @@ void measureRanges(StressBench& bench, StressFigures& figures) {
     everyLightAtEveryPoint(bench, lights, 13, figures);
 }
 
-/// A point that the light may reach or just not: 0 to 1.2 times its outer angle from where it points.
+/// A point inside or just outside the cone: 0 to 1.2 times the outer angle from the axis.
 glm::vec3 pointAboutTheCone(StressRandom& random, const Light& light) {
     const double angle = std::min(std::numbers::pi, 1.2 * std::sqrt(random.unit()) * double(light.outerConeRadians));
     const glm::dvec3 across = random.around(light.directionWS, 0.0);
@@ -206,7 +206,7 @@ glm::vec3 pointAboutTheCone(StressRandom& random, const Light& light) {
     return glm::vec3(light.positionWS + ray * random.logarithmic(1e-2, 1e3));
 }
 
-/// Narrow, wide, soft and hard ones, pointing anywhere, each seen from within as from without.
+/// Narrow, wide, soft and hard cones in any direction, each probed inside and outside.
 void measureCones(StressBench& bench, StressFigures& figures) {
     StressRandom random(14);
     constexpr double kDegree = std::numbers::pi / 180.0;
@@ -219,7 +219,7 @@ void measureCones(StressBench& bench, StressFigures& figures) {
             for (int turn = 0; turn < turns; ++turn) {
                 Light light = pointLight(1.0f);
                 light.type = LightType::Spot;
-                // Exact in fp32, so that both sides see one position.
+                // Exact in fp32, so that both sides use the same position.
                 if (turn % 2 == 1) light.positionWS = glm::dvec3(glm::vec3(random.direction()));
                 light.directionWS = turn == 0 ? glm::dvec3(0.0, 0.0, -1.0) : random.direction();
                 light.outerConeRadians = std::min(float(outer), std::numbers::pi_v<float>);
@@ -232,12 +232,12 @@ void measureCones(StressBench& bench, StressFigures& figures) {
     measure(bench, lights, probes, figures);
 }
 
-/// A surface from millimetres to hundreds of metres wide, turned at random.
+/// A surface with random orientation and dimensions from 1 mm to 1 km.
 void drawSurface(StressRandom& random, Light& light) {
     for (float* metres : {&light.widthMetres, &light.heightMetres, &light.lengthMetres, &light.radiusMetres})
         *metres = float(random.logarithmic(1e-3, 1e3));
     light.corners.count = 0;
-    // Corners in the order of their angles, at any distance, are an outline.
+    // Corners sorted by angle form an outline at any distances.
     const double around = 2.0 * std::numbers::pi / double(3 + random.index(6));
     for (double angle = 0.0; angle < 2.0 * std::numbers::pi - 0.5 * around; angle += around) {
         const double metres = double(light.widthMetres) * random.between(0.1, 1.0);
@@ -248,7 +248,7 @@ void drawSurface(StressRandom& random, Light& light) {
     light.falloff = Falloff::InverseSquare;
 }
 
-/// Those of the light's type beside its cone, between their bounds.
+/// Draws the parameters of the light's type within their bounds, except the cone's angles.
 void drawOtherParameters(StressRandom& random, Light& light) {
     for (const scenes::LightParameter& parameter : scenes::infoOf(light.type).parameters) {
         if (parameter.member == &Light::innerConeRadians || parameter.member == &Light::outerConeRadians) continue;
@@ -266,7 +266,7 @@ void measureRandomLights(StressBench& bench, StressFigures& figures) {
         Light light = pointLight(float(random.logarithmic(1e-20, 1e20)));
         light.type = LightType(random.index(int(scenes::kLightTypeCount)));
         light.falloff = Falloff(random.index(2));
-        // Exact in fp32, so that both sides see one position.
+        // Exact in fp32, so that both sides use the same position.
         light.positionWS = glm::dvec3(glm::vec3(random.direction() * random.logarithmic(1e-3, 1e3)));
         light.directionWS = random.direction();
         if (random.index(2) == 0) light.rangeMetres = float(random.logarithmic(1e-2, 1e4));

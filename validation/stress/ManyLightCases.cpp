@@ -1,4 +1,4 @@
-// Numbers of lights around the sizes of words, batches and groups, which lists and loops are prone to miscount.
+// Light counts around the sizes of words, batches and workgroups, which lists and loops tend to miscount.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -38,7 +38,7 @@ std::vector<StressPicture> picturesOf(StressEffort effort, const char* what,
     return pictures;
 }
 
-/// One light that reaches everything, so that there is something to see, and all others above one tile's corner.
+/// One light without range, so that the image is not black, and all others above one tile's corner.
 void crowd(scenes::Scene& scene, int count) {
     StressRandom random(41);
     scene.lights = {stressLight({0.0, 1.0, 0.0}, 1.0f)};
@@ -54,7 +54,7 @@ void identical(scenes::Scene& scene, int count) {
     for (scenes::Light& light : scene.lights) light.rangeMetres = 5.0f;
 }
 
-/// Each somewhere, with a range of its own.
+/// Lights at random positions with random colours and ranges.
 void scattered(scenes::Scene& scene, int count) {
     StressRandom random(42);
     for (int i = 0; i < count; ++i) {

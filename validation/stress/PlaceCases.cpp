@@ -1,4 +1,4 @@
-// Where a scene lies, how large it is, how its nodes are transformed, and where its lights are.
+// Position and scale of scenes, transforms of nodes, and positions, strengths, shapes and animation of lights.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -59,10 +59,10 @@ std::vector<StressPicture> transformedPictures(StressEffort) {
     std::vector<StressPicture> pictures;
     for (const NamedTransform& transform : transforms) {
         scenes::Scene scene = stressScene();
-        // What is pressed flat shows its front and its back at one depth; then only one of them is to be seen.
+        // Flat meshes have front and back at one depth, so only one of them may be visible.
         const bool isFlat = glm::determinant(transform.change) == 0.0;
         for (scenes::Material& material : scene.materials) material.doubleSided = !isFlat;
-        // All but the floor, which keeps something in view.
+        // All except the floor, which keeps the image from being empty.
         for (std::size_t i = 1; i < scene.nodes.size(); ++i)
             scene.nodes[i].parentFromNode = scene.nodes[i].parentFromNode * transform.change;
         pictures.push_back({transform.what, std::move(scene), settingsOf()});
@@ -70,7 +70,7 @@ std::vector<StressPicture> transformedPictures(StressEffort) {
     return pictures;
 }
 
-/// Lights that lie on the floor where a pixel's centre looks, a rounding beside it and very far away.
+/// Lights on the floor at a pixel's centre, a rounding error beside it, and very far away.
 std::vector<StressPicture> lightPlaces(StressEffort) {
     std::vector<StressPicture> pictures;
     const auto add = [&](std::string what, const scenes::Light& light) {
@@ -85,7 +85,7 @@ std::vector<StressPicture> lightPlaces(StressEffort) {
     return pictures;
 }
 
-/// A metre of surface seen through narrow lenses from far away, also by parallel rays, and a light close above it.
+/// A metre of surface viewed from far away with a narrow field of view or parallel rays, and a light close above it.
 std::vector<StressPicture> farEyes(StressEffort) {
     std::vector<StressPicture> pictures;
     const auto floor = [&](double eyeMetres, double lampMetres) {
@@ -131,7 +131,7 @@ std::vector<StressPicture> lightShapes(StressEffort) {
     return pictures;
 }
 
-/// A light's animation is a closed function of time, so whole periods later it must be where it was.
+/// A light's animation is a closed-form function of time, so whole periods later it must be at the same position.
 std::vector<StressPicture> animatedPictures(StressEffort) {
     std::vector<StressPicture> pictures;
     for (const scenes::LightAnimationKind kind :

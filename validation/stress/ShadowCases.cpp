@@ -1,5 +1,4 @@
-// Shadows where rounding, size or number makes them hard: contacts, far and tiny scenes, flat casters, lights in
-// surfaces.
+// Shadows with difficult rounding, sizes or counts: contacts, far and tiny scenes, flat casters, lights in surfaces.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -55,7 +54,7 @@ std::vector<StressPicture> shadowLights(StressEffort) {
     return pictures;
 }
 
-/// The floor of `scene` as strips, each of two triangles so thin that the cross product of their long edges keeps few
+/// Replaces the floor by strips, each of two triangles so thin that the cross product of their long edges keeps few
 /// digits.
 void cutIntoStrips(scenes::Scene& scene, int strips) {
     scenes::Mesh& floor = scene.meshes[std::size_t(scene.nodes[0].instances[0].mesh)];
@@ -80,7 +79,7 @@ std::vector<StressPicture> shadowCasters(StressEffort) {
     std::vector<StressPicture> pictures;
     for (const auto& [what, change] : changes) {
         scenes::Scene scene = stressScene();
-        // All but the floor, which keeps something in view.
+        // All except the floor, which keeps the image from being empty.
         for (std::size_t i = 1; i < scene.nodes.size(); ++i)
             scene.nodes[i].parentFromNode = scene.nodes[i].parentFromNode * change;
         pictures.push_back({fmt::format("casters {}", what), std::move(scene), shadowedSettings()});
@@ -88,7 +87,7 @@ std::vector<StressPicture> shadowCasters(StressEffort) {
     for (const int strips : {60, 1000}) {
         pictures.push_back({fmt::format("a floor of {} strips", strips), stressScene(), shadowedSettings()});
         cutIntoStrips(pictures.back().scene, strips);
-        // Turned, so that no coordinate is 0.
+        // Rotated, so that no coordinate is 0.
         scenes::Node& node = pictures.back().scene.nodes[0];
         node.parentFromNode = glm::rotate(node.parentFromNode, 0.3, glm::dvec3(0.0, 1.0, 0.0));
     }
@@ -102,7 +101,7 @@ std::vector<StressPicture> shadowTargets(StressEffort) {
     return pictures;
 }
 
-/// Small ones above the floor between the balls.
+/// Lights with short ranges above the floor between the balls.
 std::vector<StressPicture> shadowCrowds(StressEffort effort) {
     std::vector<StressPicture> pictures;
     for (const int count : {257, 4097}) {

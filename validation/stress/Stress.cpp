@@ -21,7 +21,7 @@ StressResult resultOf(const StressCase& row, std::optional<Technique> technique)
     return {row.name, technique, {}, row.bound, row.tolerance, row.reason};
 }
 
-/// Draws the pictures of one case with every technique.
+/// Draws the images of one case with every technique.
 class PictureRun {
 public:
     PictureRun(gpu::Context& context, const StressRequest& request, const StressCase& row)
@@ -66,7 +66,7 @@ private:
         return picture;
     }
 
-    /// Whether a later picture is compared with this one.
+    /// Whether a later image is compared with this one.
     bool isTruth(std::size_t index) const {
         return std::any_of(pictures_.begin(), pictures_.end(),
                            [index](const StressPicture& later) { return later.sameAs == index; });
@@ -76,7 +76,7 @@ private:
     const StressRequest& request_;
     std::vector<StressPicture> pictures_;
     std::vector<StressResult> results_;       ///< parallel to the request's techniques
-    std::vector<std::vector<Picture>> drawn_; ///< by picture and technique; empty where no other is compared with it
+    std::vector<std::vector<Picture>> drawn_; ///< by picture and technique; empty if no other is compared with it
 };
 
 } // namespace
@@ -135,7 +135,7 @@ std::vector<const StressCase*> stressCasesNamed(const std::string& name) {
         if (rowGroup == group) inGroup.push_back(row.name);
         if (groups.empty() || groups.back() != rowGroup) groups.push_back(rowGroup);
     }
-    // All names would fill a screen.
+    // Suggests groups or the cases of one group: all names would fill a screen.
     if (found.empty())
         throw InputError(fmt::format("case '{}': no case or group of cases is called that; {}", name,
                                      inGroup.empty() ? suggestNames(group, groups) : suggestNames(name, inGroup)));

@@ -11,13 +11,13 @@
 
 namespace tessera::validation {
 
-/// How much a run does. Quick: a hundredth of the random samples and the light counts up to 1024.
+/// Effort of a run. Quick: a quarter to a 64th of the random samples, and at most 1024 lights.
 enum class StressEffort { Quick, Full };
 
-/// What a case may use: the context, the shaders under test, and shader functions run on numbers of its choice.
+/// Tools of a case: the context, the shaders under test, and shader functions run on given numbers.
 class StressBench {
 public:
-    /// The context must be current and outlive the object. `progress` is called with the share 0..1 of the case done.
+    /// The context must be current and outlive the object. `progress` receives the completed fraction 0..1 of the case.
     StressBench(
         gpu::Context& context, const shader::SourceTree& shaders, StressEffort effort,
         std::function<void(double)> progress = [](double) {}, float measuredTimes = 1.0f)
@@ -25,14 +25,14 @@ public:
           measuredTimes_(measuredTimes) {}
 
     /// Runs a compute shader of shaders/stress, one invocation per record. It reads vec4 inputs[] and writes vec4
-    /// outputs[] (shaders/shared/slots.h), as many of each a record as it says. Other bindings are the caller's.
+    /// outputs[] (shaders/shared/slots.h), as many of each per record as it defines. Other bindings are the caller's.
     std::vector<glm::vec4> run(const std::string& shader, const shader::Defines& defines,
                                const std::vector<glm::vec4>& inputs, std::size_t records, std::size_t outputsPerRecord);
 
     gpu::Context& context() { return context_; }
     const shader::SourceTree& shaders() const { return shaders_; }
     StressEffort effort() const { return effort_; }
-    /// Factor of all that is measured; run() multiplies by it.
+    /// Factor on everything measured; run() applies it.
     float measuredTimes() const { return measuredTimes_; }
     void progress(double share) const { progress_(share); }
 

@@ -12,22 +12,22 @@
 
 namespace tessera::validation {
 
-/// Which figure a case is held to.
+/// The figure that a case's tolerance applies to.
 enum class StressBound { WorstRel, RelMse };
 
-/// A picture that every technique draws.
+/// An image that every technique draws.
 struct StressPicture {
     std::string what; ///< such as "257 lights in one tile"
     scenes::Scene scene;
     frame::FrameSettings settings;
-    /// Index of an earlier picture of the case: the truth is that picture, drawn by the same technique. Without one it
-    /// is the reference renderer's.
+    /// Index of an earlier picture of the case, whose image by the same technique is the truth. Unset: the reference
+    /// renderer's image is.
     std::optional<std::size_t> sameAs = {};
-    double allowed = 1.0; ///< times the case's tolerance; errors are divided by it
+    double allowed = 1.0; ///< multiple of the case's tolerance; errors are divided by it
 };
 
-/// One row of the suite. Either shader functions are measured alone, which all techniques share, or pictures are drawn
-/// with every technique.
+/// One row of the suite. It either measures shader functions alone, which all techniques share, or draws images with
+/// every technique.
 struct StressCase {
     std::string name;  ///< "group/what"
     std::string holds; ///< what must hold, one line

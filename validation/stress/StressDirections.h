@@ -5,12 +5,12 @@
 
 namespace tessera::validation {
 
-/// A surface's frame with a light and a viewer, in the single precision in which shaders get them.
+/// A surface's frame with a light and a viewer, in the fp32 precision of shader inputs.
 struct StressView {
     glm::vec3 normal, tangent, toLight, toViewer;
 };
 
-/// A way of placing light and viewer.
+/// A placement of light and viewer.
 struct StressDirection {
     const char* name; ///< as part of a case's name
     const char* holds;

@@ -47,7 +47,7 @@ void StressFigures::addPicture(const RadianceFigures& picture, const std::string
         worstRelMse = std::isnan(relMse) ? std::numeric_limits<double>::infinity() : relMse;
         whereRelMse = what;
     }
-    // Without a tolerance: the picture has light, and enough of it was compared.
+    // An empty tolerance checks that the image has light and that enough of it was compared.
     const Verdict signal = checkTolerance(picture, {});
     if (fault.empty() && !signal.ok) fault = fmt::format("{}: {}", what, signal.missed.front());
 }

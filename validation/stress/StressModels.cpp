@@ -25,7 +25,7 @@ float randomAlpha(StressRandom& random) {
     }
 }
 
-/// 0 and 1 as often as values between them.
+/// 0 or 1 in a third of the draws, else a value between them.
 float randomShare(StressRandom& random) {
     return random.index(3) == 0 ? float(random.index(2)) : float(random.unit());
 }
@@ -61,7 +61,7 @@ void randomMetallicRoughness(Material& material, StressRandom& random) {
     material.ior = float(random.logarithmic(1.0, 1000.0));
     material.specularFactor = randomShare(random);
     material.specularColor = random.color();
-    // Each layer is there in half of the materials.
+    // Each layer is present in half of the materials.
     if (random.index(2) == 0) {
         material.anisotropyStrength = randomShare(random);
         material.anisotropyRotationRadians = float(random.unit() * 2.0 * std::numbers::pi);
@@ -84,12 +84,12 @@ double flooredSquare(double perceptualRoughness) {
     return floored(perceptualRoughness * perceptualRoughness);
 }
 
-/// x^p multiplies a relative error of x by p, as a lobe of alpha does one of a direction by 2/alpha.
+/// x^p multiplies a relative error of x by p; a lobe multiplies one of a direction by 2/alpha.
 double sharpnessOfExponent(const Material& material) {
     return std::min(1.0, 2.0 / std::max(double(material.exponent), 2.0));
 }
 
-/// The sharpest of the layers; the anisotropic alpha is the larger of its two. A sheen is a power of 1/alpha of a sine.
+/// Alpha of the sharpest layer. Anisotropy only raises one of two alphas. Sheen is a sine to the power 1/alpha.
 double sharpnessOfLayers(const Material& material) {
     double sharpness = flooredSquare(material.perceptualRoughness);
     if (material.clearcoat > 0.0f)

@@ -9,7 +9,7 @@
 
 namespace tessera::validation {
 
-/// Random numbers that are the same everywhere: std::mt19937_64 is specified to the last bit, the distributions of
+/// Random numbers that are equal on all platforms: std::mt19937_64 is specified to the last bit, the distributions of
 /// <random> are not.
 class StressRandom {
 public:
@@ -25,7 +25,7 @@ public:
     /// Uniform over the sphere.
     glm::dvec3 direction() { return around({0.0, 0.0, 1.0}, between(-1.0, 1.0)); }
 
-    /// At this cosine with `axis`, turned at random.
+    /// A direction at this cosine to `axis`, with random azimuth.
     glm::dvec3 around(const glm::dvec3& axis, double cosine) {
         const glm::dvec3 other = std::abs(axis.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
         const glm::dvec3 t = glm::normalize(glm::cross(axis, other)), b = glm::cross(axis, t);

@@ -6,13 +6,13 @@
 
 namespace tessera::validation {
 
-/// What `tessera stress` found.
+/// The results of `tessera stress`.
 struct StressRecord {
     std::string renderer; ///< as GL reports it
     StressEffort effort = StressEffort::Full;
     std::vector<StressResult> results;
 
-    /// There is a result, and each holds.
+    /// Whether there is a result and all hold.
     bool ok() const;
 };
 

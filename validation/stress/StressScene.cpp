@@ -84,7 +84,7 @@ scenes::Scene stressFloor() {
     scene.name = "stress floor";
     const int white = addMaterial(scene, lambert("floor", glm::vec3(1.0f)));
     scenes::Mesh floor;
-    // Off the middle: no pixel's centre lies on the diagonal, where either of two triangles would be right.
+    // Off-centre: no pixel's centre lies on the diagonal, where either triangle would be right.
     appendFloor(floor, {0.013, 0.0, 0.0}, {2.2, 2.2}, {1, 1});
     addNode(scene, "floor", glm::dmat4(1.0), {{addMesh(scene, "floor", floor), white}});
     scenes::Camera camera;
@@ -98,7 +98,7 @@ scenes::Scene stressFloor() {
 
 namespace {
 
-/// An eye so far from the origin, above and to a side, that a circle of that radius about the origin fills the picture.
+/// Adds a camera at `eyeMetres`, above and to a side, whose view a circle of `radiusMetres` about the origin fills.
 void addFarCamera(scenes::Scene& scene, double eyeMetres, double radiusMetres) {
     const glm::dvec3 directionWS = glm::normalize(glm::dvec3(0.48, 0.6, 0.64));
     addCamera(scene, "far", eyeMetres * directionWS, glm::dvec3(0.0),

@@ -1,34 +1,34 @@
 #pragma once
 #include "scenes/Scene.h"
 
-/// The scene that picture cases vary, and short forms for what they add to it.
+/// The scenes that image cases vary, and helpers to modify them.
 namespace tessera::validation {
 
-/// What a frame of balls is held to against the reference.
+/// Tolerance of a frame of balls against the reference.
 inline constexpr double kBallTolerance = 1e-3;
 inline constexpr const char* kBallReason = "fp32 lighting of the same surface, most of it 3e-6: where n.v or n.l is "
                                            "near 0 at a ball's edge it keeps fewer digits";
 
 /// A floor 4 m wide with a ball and a slanted board of every lit material model on it, one point and one spot light,
-/// and a camera that sees all of it from 5 m away. World origin in the middle of the floor.
+/// and a camera 5 m away with all of it in view. The world origin is in the middle of the floor.
 scenes::Scene stressScene();
 
-/// Only the floor, filling the picture of a camera that looks straight down at it from 2 m; one metre to each side. Its
-/// material is lambert, white.
+/// Only the floor, white lambert, filling the view of an orthographic camera 2 m above it that sees one metre to each
+/// side.
 scenes::Scene stressFloor();
 
-/// A floor 1 m wide, world origin in its middle, that fills the picture of an eye so far away. Nothing lights it.
+/// An unlit floor 1 m wide, centred at the world origin, that fills the view of a camera at `eyeMetres`.
 scenes::Scene stressFarFloor(double eyeMetres);
 
-/// A glossy ball of 1 m about the world's origin, seen from as far, with that many lights of 0.4 m around it.
+/// A glossy ball 1 m wide at the world origin, viewed from `eyeMetres`, with lights of 0.4 m range around it.
 scenes::Scene stressFarBall(double eyeMetres, int lights);
 
-/// The scene so many times as large, and then moved: its picture is what it was, to rounding.
+/// Scales the scene, then moves it: its image stays the same, up to rounding.
 void moveScene(scenes::Scene& scene, double scale, const glm::dvec3& offsetWS);
 
 scenes::Light stressLight(const glm::dvec3& positionWS, float candela);
 
-/// An image of 8 x 8 texels, all alike.
+/// Adds an image of 8 x 8 equal texels; returns its index.
 int addUniformImage(scenes::Scene& scene, const glm::ivec4& texel);
 
 } // namespace tessera::validation

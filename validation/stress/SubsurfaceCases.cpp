@@ -1,5 +1,5 @@
-// Subsurface scattering where widths, sizes, shapes and numbers make it stiff. What spreads must stay finite and keep
-// its energy: light that is the same everywhere is not changed by spreading, and none is lost from what is lit in part.
+// Subsurface scattering with extreme widths, sizes, shapes and light counts. Diffusion must stay finite and conserve
+// energy: it does not change uniform light, and loses none of partial light.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,7 +33,7 @@ frame::FrameSettings spreadSettings(int sideTexels = kSideTexels) {
     return settings;
 }
 
-/// One Gaussian, so many texels of the floor wide.
+/// A profile of one Gaussian, `sigmaTexels` texels of the floor wide.
 scenes::Subsurface spreading(double sigmaTexels, int sideTexels = kSideTexels) {
     scenes::Subsurface subsurface;
     subsurface.method = SubsurfaceMethod::TextureSpaceDiffusion;
@@ -42,7 +42,7 @@ scenes::Subsurface spreading(double sigmaTexels, int sideTexels = kSideTexels) {
     return subsurface;
 }
 
-/// A floor of one texture in the middle of the picture, all of it in view.
+/// A floor with one texture, centred and fully in view.
 scenes::Scene spreadFloor(const scenes::Subsurface& subsurface) {
     scenes::Scene scene = stressFloor();
     for (glm::vec2& texCoord : scene.meshes[0].texCoords[0]) texCoord /= float(kFloorMetres);
@@ -51,7 +51,7 @@ scenes::Scene spreadFloor(const scenes::Subsurface& subsurface) {
     return scene;
 }
 
-/// The same irradiance everywhere.
+/// Adds a sun straight above: irradiance is the same everywhere.
 scenes::Scene& underASun(scenes::Scene& scene) {
     scenes::Light sun = stressLight({}, 3.0f);
     sun.type = scenes::LightType::Directional;
@@ -60,10 +60,10 @@ scenes::Scene& underASun(scenes::Scene& scene) {
     return scene;
 }
 
-/// From a texel's hundredth to ten times the atlas.
+/// From a hundredth of a texel to ten times the atlas.
 constexpr double kWidthsTexels[] = {0.01, 0.1, 0.4, 1.0, 8.0, double(kSideTexels), 10.0 * kSideTexels};
 
-/// Pictures of even light; the first one does not spread it.
+/// Images under uniform light. The first one, without diffusion, is the truth of the others.
 std::vector<StressPicture> evenly(std::vector<std::pair<std::string, scenes::Scene>> scenes,
                                   int sideTexels = kSideTexels) {
     std::vector<StressPicture> pictures;
@@ -80,7 +80,7 @@ std::vector<StressPicture> spreadWidths(StressEffort) {
     return evenly(std::move(scenes));
 }
 
-/// The floor with triangles beside it, below what is seen.
+/// The floor with a further triangle below the visible surface.
 scenes::Scene withTriangles(const std::array<glm::vec3, 3>& cornersOS, const std::array<glm::vec2, 3>& texCoords) {
     scenes::Scene scene = spreadFloor(spreading(8.0));
     scenes::Mesh& mesh = scene.meshes[0];
@@ -128,8 +128,8 @@ std::vector<StressPicture> spreadTexels(StressEffort effort) {
     return pictures;
 }
 
-/// A ball lit from behind, so that light passes through it and spreads, `scale` times as large in the scene and as
-/// large as it was in metres.
+/// A ball lit from behind, so that light is transmitted and diffused. The scene is scaled by `scale`, and scaleMetres
+/// keeps the ball's size in metres.
 scenes::Scene glowingBall(SubsurfaceMethod method, double scale, const glm::dvec3& offsetWS) {
     scenes::Scene scene = spreadFloor({});
     scenes::Material flesh = scenes::builtin::lambert("flesh", glm::vec3(0.8f));
@@ -173,7 +173,7 @@ std::vector<StressPicture> wrappedPlaces(StressEffort) {
     return ballsElsewhere(SubsurfaceMethod::Wrap);
 }
 
-/// Small lights over the floor.
+/// Lights with short ranges over the floor.
 void addCrowd(scenes::Scene& scene, int count) {
     StressRandom random(47);
     for (int i = 0; i < count; ++i) {
@@ -184,7 +184,7 @@ void addCrowd(scenes::Scene& scene, int count) {
     }
 }
 
-/// The sum of a picture; its pixels are counted.
+/// Renders the scene and returns the sum of its radiance; counts its pixels.
 double sumOf(StressBench& bench, const scenes::Scene& scene, const frame::FrameSettings& settings,
              StressFigures& figures) {
     engine::Renderer renderer(bench.context(), scene, bench.shaders());
@@ -198,7 +198,7 @@ double sumOf(StressBench& bench, const scenes::Scene& scene, const frame::FrameS
     return sum;
 }
 
-/// By how much spreading changes the sum of light, for widths up to 8 texels of 256 or for wider ones.
+/// Measures how much diffusion changes the sum of light, for widths up to 8 of 256 texels or for wider ones.
 void measureEnergyOf(StressBench& bench, StressFigures& figures, bool isWide) {
     constexpr int kFineTexels = 256;
     const auto litInPart = [](scenes::Scene scene, int lights) {
@@ -206,7 +206,7 @@ void measureEnergyOf(StressBench& bench, StressFigures& figures, bool isWide) {
             addCrowd(scene, lights);
             return scene;
         }
-        // Its edge falls off over many texels, so that they sum up what pixels do.
+        // The edge falls off over many texels, so that texels and pixels have the same sum.
         scenes::Light spot = stressLight({0.1, 2.0, -0.1}, 5.0f);
         spot.type = scenes::LightType::Spot;
         spot.directionWS = {0.0, -1.0, 0.0};

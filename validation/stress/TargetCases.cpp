@@ -1,4 +1,4 @@
-// Sizes of pictures that tiles, groups and vectors do not divide.
+// Image sizes that tiles, workgroups and vectors do not divide.
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -12,7 +12,7 @@ namespace tessera::validation {
 namespace {
 
 std::vector<StressPicture> targetPictures(StressEffort) {
-    // The widest first multiple of a texture row beyond the 8192 that software rasterisers treat specially.
+    // 8193 is one more than 8192, which software rasterisers treat specially.
     constexpr glm::ivec2 kSizes[] = {{1, 1},   {1, 37},   {37, 1},   {2, 3},   {17, 15},
                                      {63, 65}, {127, 73}, {8193, 1}, {1, 8193}};
     std::vector<StressPicture> pictures;
@@ -22,7 +22,7 @@ std::vector<StressPicture> targetPictures(StressEffort) {
         settings.display = false;
         pictures.push_back({fmt::format("{}x{}", size.x, size.y), stressFloor(), settings});
         scenes::Scene& scene = pictures.back().scene;
-        // The floor fills the picture and little more: rasterisers lose triangles 1e7 times as wide as it.
+        // The floor fills the image and little more: rasterisers lose triangles 1e7 times as wide as the image.
         const double aspect = double(size.x) / double(size.y);
         scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), {std::max(aspect, 1.0), 1.0, 1.0});
         scene.lights = {stressLight({0.3, 1.0, 0.2}, 1.0f), stressLight({-0.5, 0.5, -0.5}, 0.5f)};

@@ -17,7 +17,7 @@ std::size_t samplesOf(const StressBench& bench) {
     return bench.effort() == StressEffort::Full ? 1u << 20 : 1u << 15;
 }
 
-/// D by the cross product, which in double keeps every digit of the given n and h, unit or not.
+/// D from the cross product, which in double keeps every digit of the given n and h, normalised or not.
 double distributionOf(double alpha, const glm::dvec3& n, const glm::dvec3& h) {
     const double cosine = glm::dot(n, h);
     if (!(cosine > 0.0)) return 0.0;
@@ -86,7 +86,7 @@ void measureFresnel(StressBench& bench, const std::vector<Interface>& interfaces
         const double ior = double(interfaces[i].ior), cosine = double(interfaces[i].cosine);
         const double truth = reference::fresnelDielectric(ior, cosine), shown = double(out[2 * i].w);
         figures.count({&out[2 * i].w, 1});
-        // Where the truth is exactly 0, an index of 1, anything else is wrong.
+        // Where the truth is exactly 0, at an index of 1, any other value is wrong.
         const double rel = truth == 0.0 ? std::abs(shown) : std::abs(shown / truth - 1.0);
         figures.error(rel, [&] { return fmt::format("ior {:.9g}, cosine {:.3g}", ior, cosine); });
     }

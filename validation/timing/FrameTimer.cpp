@@ -15,11 +15,11 @@ namespace tessera::validation {
 
 namespace {
 
-/// Largest relative difference of the sum of a frame's passes from the frame: preparing a frame and waiting between
-/// passes belong to none of them. The project's definition of a pass's time asks for it.
+/// Largest relative difference between a frame and the sum of its passes: preparing a frame and waiting between passes
+/// belong to no pass. Required by the project's definition of a pass's time.
 constexpr double kMostUnexplained = 0.15;
 
-/// What profiling changes in a renderer's backend, put back in the end.
+/// Backend settings that profiling changes; the destructor restores them.
 class BackendSettings {
 public:
     BackendSettings(gpu::GraphBackend& backend, int mostIdleFrames)
@@ -91,7 +91,7 @@ void summarisePasses(PointTimes& times, const std::vector<std::string>& names,
 
 std::vector<std::vector<double>> timeInTurn(std::span<const TimedPoint> points, std::span<const TimedFrame> others,
                                             const InterleaveOptions& options) {
-    // Whose turn comes seldom must find its targets where it left them.
+    // Keeps the targets of each point allocated until its next turn.
     std::map<gpu::GraphBackend*, BackendSettings> settings;
     std::vector<TimedFrame> kinds;
     for (const TimedPoint& point : points) {
@@ -114,11 +114,11 @@ void profilePoint(PointTimes& times, const TimedPoint& point, int frames) {
         gpu::finish();
         const gpu::CpuTimer clock;
         drawPoint(point, eyeOffsetOfFrame(i));
-        gpu::finish(); // after which the timers' results are there
+        gpu::finish(); // makes the timers' results available
         if (byClock) frameMs.push_back(clock.elapsedMs());
         profiled.push_back(backend.passTimings());
     }
-    // Passes that write what is kept, such as shadow maps, do not run in every frame.
+    // Passes that fill caches, such as shadow maps, do not run in every frame.
     std::vector<std::string> names;
     for (const std::vector<gpu::PassTiming>& frame : profiled) {
         if (frame.size() <= names.size()) continue;

@@ -20,7 +20,7 @@ struct TimedPoint {
 
 struct PassTime {
     std::string name;
-    std::optional<double> gpuMs; ///< median; none where PointTimes::why says why
+    std::optional<double> gpuMs; ///< median; unset with a reason in PointTimes::why
 };
 
 struct PointTimes {
@@ -40,22 +40,22 @@ struct FrameTimes {
     std::vector<std::vector<double>> othersMs; ///< parallel to the other requested frames, one time per round
 };
 
-/// Wall times of whole frames in turn (timeInterleaved): of the points, then of `others`.
+/// Wall times of whole frames that take turns (timeInterleaved): of the points, then of `others`.
 std::vector<std::vector<double>> timeInTurn(std::span<const TimedPoint> points, std::span<const TimedFrame> others,
                                             const InterleaveOptions& options);
 
-/// Fills the times of passes from frames drawn for nothing else.
+/// Fills in the times of passes, from frames drawn only for that.
 void profilePoint(PointTimes& times, const TimedPoint& point, int frames = FrameTimerOptions{}.profiledFrames);
 
-/// Times frames in turn (timeInterleaved); `others` are further frames of the same run, such as those of the lower
-/// bound. Each pass's time comes from separate frames: from GPU timers; or, on software rasterisers, where these mean
-/// nothing, from glFinish and the CPU clock on both sides of the pass, and then only where the passes sum to within 15
-/// % of the frame. Nothing is read back. Throws what drawing throws.
+/// Times frames that take turns (timeInterleaved); `others` are further frames of the same run, such as those of the
+/// lower bound. Pass times come from separate frames: from GPU timers, or on software rasterisers, whose GPU timers are
+/// meaningless, from glFinish and the CPU clock around the pass, and then only if the passes sum to within 15 % of the
+/// frame. Nothing is read back. Throws what drawing throws.
 FrameTimes timeFrames(std::span<const TimedPoint> points, std::span<const TimedFrame> others = {},
                       const FrameTimerOptions& options = {});
 
-/// The times of passes from profiled frames: `passesMs` by frame and pass, `frameMs` the wall time of each of these
-/// frames where the passes must sum to it. Fills gpuMs, passes and why.
+/// Summarises profiled frames: `passesMs` by frame and pass, `frameMs` the wall time of each frame, or empty if the
+/// passes need not sum to it. Fills in gpuMs, passes and why.
 void summarisePasses(PointTimes& times, const std::vector<std::string>& names,
                      const std::vector<std::vector<std::optional<double>>>& passesMs, std::span<const double> frameMs);
 

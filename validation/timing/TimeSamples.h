@@ -4,7 +4,7 @@
 
 namespace tessera::validation {
 
-/// What repeated times amount to: nearest-rank percentiles (Percentile.h), so always times that were measured.
+/// Statistics of repeated times: nearest-rank percentiles (Percentile.h), which are always measured values.
 struct TimeSpread {
     double median = 0.0;
     double p95 = 0.0;
@@ -13,8 +13,8 @@ struct TimeSpread {
 /// NaN for no samples.
 TimeSpread spreadOf(std::vector<double> samples);
 
-/// Over rounds, (high - low) / step: how much time one unit more costs. Low and high of one round were measured next to
-/// each other, so that a machine that changes its pace between rounds does not enter. NaN for no rounds.
+/// Statistics over rounds of (high - low) / step: the time of one more unit. Low and high of a round are measured next
+/// to each other, so that changes in the machine's speed between rounds cancel. NaN for no rounds.
 TimeSpread slopeSpread(std::span<const double> low, std::span<const double> high, double step);
 
 } // namespace tessera::validation

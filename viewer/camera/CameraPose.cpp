@@ -10,10 +10,9 @@
 namespace tessera::viewer {
 namespace {
 
-/// Zooming in takes the near plane along, so that it never cuts a hole into things: it keeps its share of the focus,
-/// or comes to this share where it began nearer than that. A scene's own plane stays where it is at the focus that it
-/// began with: it may cut a wall away. Depth is reversed and in floating point: a near plane close by costs no
-/// precision.
+/// Zooming in moves the near plane closer, so that it does not cut into surfaces: it keeps its fraction of the focus
+/// distance, or this one if it began smaller. At the initial focus, a scene's near plane stays where it is: it may cut
+/// a wall away. With reversed floating-point depth, a close near plane costs no precision.
 constexpr double kNearShare = 0.01;
 
 double nearMetresOf(const CameraPose& pose) {
@@ -28,7 +27,7 @@ double focusOf(const scenes::Camera& camera, const scenes::Box3& boundsWS) {
     const glm::dvec3 centerWS = 0.5 * (boundsWS.min + boundsWS.max);
     const glm::dvec3 forwardWS = headingOf(glm::dmat3(camera.worldFromCamera)).forwardWS();
     const double depthMetres = glm::dot(centerWS - glm::dvec3(camera.worldFromCamera[3]), forwardWS);
-    // Nearer than this the centre is rather beside the eye than ahead.
+    // Closer than this, the centre lies beside the eye rather than ahead.
     constexpr double kLeastShare = 0.05;
     if (depthMetres > kLeastShare * diagonalMetres) return depthMetres;
     return diagonalMetres > 0.0 ? 0.5 * diagonalMetres : 1.0;
@@ -72,7 +71,7 @@ scenes::CameraChange changeOf(const CameraPose& pose, const scenes::Camera& star
     scenes::CameraChange change;
     change.eyeWS = pose.eyeWS;
     change.targetWS = pose.eyeWS + pose.focusMetres * pose.heading.forwardWS();
-    // Far from the origin a near focus would be lost in the eye's own rounding.
+    // Far from the origin, a short focus distance is lost in the rounding of the eye.
     if (*change.targetWS == pose.eyeWS) *change.targetWS += glm::length(pose.eyeWS) * pose.heading.forwardWS();
     const bool isUpright = pose.heading.rollRadians == 0.0 && std::abs(pose.heading.pitchRadians) <= kMostPitchRadians;
     if (!isUpright) change.upWS = pose.heading.upWS();

@@ -4,37 +4,37 @@
 
 namespace tessera::viewer {
 
-/// Position, direction and field of view of a camera, which orbiting and flying pass to each other.
+/// The state of a camera that OrbitCamera and FlyCamera exchange: position, orientation and focus.
 struct CameraPose {
     glm::dvec3 eyeWS{0.0};
     Heading heading;
-    double focusMetres = 1.0;      ///< distance ahead of the eye of the point that orbiting turns about, > 0
-    double halfHeightMetres = 1.0; ///< of the picture, orthographic cameras
-    double nearMetres = 0.1;       ///< at nearFocusMetres and beyond
-    double nearFocusMetres = 1.0;  ///< a focus nearer than this takes the near plane along, perspective cameras; > 0
+    double focusMetres = 1.0;      ///< distance from the eye to the orbit pivot ahead, > 0
+    double halfHeightMetres = 1.0; ///< half the image height, orthographic cameras
+    double nearMetres = 0.1;       ///< if the focus is at nearFocusMetres or beyond
+    double nearFocusMetres = 1.0;  ///< a shorter focus moves the near plane closer (perspective cameras), > 0
     double farMetres = 1.0;
     bool operator==(const CameraPose&) const = default;
 };
 
-/// The pose of a scene's camera. It focuses on the depth of the bounds' centre where that lies ahead, else on what is
-/// a half diagonal ahead; without bounds on 1 m ahead. The near plane is the camera's own at that focus and beyond.
+/// The pose of a scene's camera. The focus is at the depth of the bounds' centre if that lies ahead, else half a
+/// diagonal ahead; without bounds 1 m ahead. The camera's near plane is kept at that focus and beyond.
 CameraPose poseOf(const scenes::Camera& camera, const scenes::Box3& boundsWS);
-/// The same with the focus that many metres ahead, > 0.
+/// The same with a given focus distance, > 0.
 CameraPose poseOf(const scenes::Camera& camera, double focusMetres);
 
-/// The pose with another eye or target, what its focus is in: it looks from the one to the other, with its roll. As it
-/// was where they are one point.
+/// The pose moved to another eye and target, which is its new focus, with the same roll. Unchanged if both are the same
+/// point.
 CameraPose between(const CameraPose& pose, const glm::dvec3& eyeWS, const glm::dvec3& targetWS);
 glm::dvec3 targetOf(const CameraPose& pose);
 
-/// The command line's form of the pose of a camera that started as `start`: eye, target and other differences. The
-/// viewer draws the result of changedCamera() on it, so that both are the same to the last bit.
+/// The pose as a command-line change of the camera `start`: eye, target and other differences. The viewer draws
+/// changedCamera() of it, so that both are bit-identical.
 scenes::CameraChange changeOf(const CameraPose& pose, const scenes::Camera& start);
 
 /// `start` in this pose: changedCamera(start, changeOf(pose, start)).
 scenes::Camera cameraAt(const CameraPose& pose, const scenes::Camera& start);
 
-/// Metres that one pixel shows at a depth.
+/// Metres per pixel at a depth.
 double metresPerPixel(const scenes::Camera& lens, const CameraPose& pose, double depthMetres, double heightPixels);
 
 } // namespace tessera::viewer

@@ -10,9 +10,9 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kDiagonalSeconds = 8.0; ///< in which the bounds' diagonal is crossed: a stroll
+constexpr double kDiagonalSeconds = 8.0; ///< to cross the bounds' diagonal: a stroll
 constexpr double kFastFactor = 5.0;
-constexpr double kStepsToDouble = 2.0; ///< the speed
+constexpr double kStepsToDouble = 2.0; ///< steps that double the speed
 constexpr double kMostSpeedSteps = 8.0;
 
 double speedIn(const scenes::Box3& boundsWS) {
@@ -26,7 +26,7 @@ FlyCamera::FlyCamera(const CameraPose& pose, const scenes::Camera& lens, const s
     : lens_(lens), usualMetresPerSecond_(speedIn(boundsWS)), shown_(pose), goal_(pose) {}
 
 void FlyCamera::look(const glm::dvec2& movePixels, double heightPixels) {
-    // Parallel rays turn as the picture of a perspective camera that sees as much at the focus.
+    // Parallel rays turn like a perspective camera with the same view height at the focus.
     const double tanPerPixel = metresPerPixel(lens_, goal_, goal_.focusMetres, heightPixels) / goal_.focusMetres;
     goal_.heading = turned(goal_.heading, -movePixels.x * tanPerPixel, -movePixels.y * tanPerPixel);
 }

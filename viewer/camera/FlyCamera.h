@@ -3,7 +3,7 @@
 
 namespace tessera::viewer {
 
-/// Which keys are held; opposite ones cancel.
+/// Held movement keys; opposite ones cancel.
 struct FlyKeys {
     bool forward = false, back = false; ///< W, S
     bool left = false, right = false;   ///< A, D
@@ -11,33 +11,33 @@ struct FlyKeys {
     bool fast = false;                  ///< Shift
 };
 
-/// Walks through the air by keys and looks by mouse, all damped.
+/// First-person camera: flies by keys and looks around by mouse, both damped.
 class FlyCamera {
 public:
-    /// The speed that it begins with is proportional to the size of the scene: a box is crossed in the same time, be
-    /// it a ring or a cathedral.
+    /// The initial speed is proportional to the scene's size, so that a ring and a cathedral are crossed in the same
+    /// time.
     FlyCamera(const CameraPose& pose, const scenes::Camera& lens, const scenes::Box3& boundsWS);
 
-    /// Mouse look: the view turns the way the mouse goes, as many pixels in the picture's middle as it went.
+    /// Mouse look: turns the view in the direction of the mouse, by as many pixels at the image centre as it moved.
     void look(const glm::dvec2& movePixels, double heightPixels);
-    /// Flies faster by steps, slower where they are negative; two steps are twice as fast. It stays between a
-    /// sixteenth and 16 times the speed that it begins with.
+    /// Changes the speed by steps: two steps double it, negative ones reduce it. It stays between a sixteenth and 16
+    /// times the initial speed.
     void changeSpeed(double steps);
-    /// Is as much faster or slower than it began as another one, which may be of another scene.
+    /// Takes the speed relative to the initial one from another camera, possibly of another scene.
     void takeSpeedFactor(const FlyCamera& other) { speedSteps_ = other.speedSteps_; }
-    /// Of keys that are held without Shift.
+    /// Speed of held keys without Shift.
     double metresPerSecond() const;
-    /// Keys held from now on.
+    /// Sets the keys held from now on.
     void hold(const FlyKeys& keys) { keys_ = keys; }
-    /// What keys would move it by, in metres a second.
+    /// Velocity from the held keys, in metres per second.
     glm::dvec3 velocityWS() const;
 
-    /// Goes to a pose, damped; the shorter way round. At rest it is exactly there.
+    /// Moves to a pose, damped, by the shorter turn. The end pose is exact.
     void goTo(const CameraPose& pose);
-    /// Is at a pose at once.
+    /// Jumps to a pose without damping.
     void jumpTo(const CameraPose& pose);
 
-    /// Moves on by a span of time. Two half steps are one step, also while keys are held.
+    /// Advances the movement. Two half steps equal one step, also while keys are held.
     void advance(double stepSeconds, double heightPixels);
     bool isAtRest() const;
 

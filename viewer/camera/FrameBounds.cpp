@@ -7,7 +7,7 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kMargin = 1.05; ///< so that nothing touches the picture's edge
+constexpr double kMargin = 1.05; ///< keeps a margin to the image's edges
 
 scenes::Box3 framedBox(const scenes::Box3& boundsWS) {
     const bool hasSize = !boundsWS.empty() && glm::length(boundsWS.max - boundsWS.min) > 0.0;
@@ -16,11 +16,11 @@ scenes::Box3 framedBox(const scenes::Box3& boundsWS) {
     return {centerWS - 1.0 / std::sqrt(3.0), centerWS + 1.0 / std::sqrt(3.0)};
 }
 
-/// What of the box's corners decides: how far each reaches across the picture, and how deep.
+/// Extent of a box's corners in view.
 struct Reach {
-    double distanceMetres = 0.0;   ///< perspective: from the centre to the nearest eye that sees every corner
-    double halfHeightMetres = 0.0; ///< orthographic: of the least picture
-    double depthMetres = 0.0;      ///< of the farthest corner behind the centre
+    double distanceMetres = 0.0;   ///< perspective: from the centre to the nearest eye with every corner in view
+    double halfHeightMetres = 0.0; ///< orthographic: of the smallest image with every corner
+    double depthMetres = 0.0;      ///< of the farthest corner beyond the centre
 };
 
 Reach reachOf(const scenes::Box3& box, const Heading& heading, const glm::dvec2& tanHalf, double aspect) {
@@ -52,7 +52,7 @@ CameraPose frameBounds(const scenes::Box3& boundsWS, const CameraPose& pose, con
     const double tanHalf = std::tan(0.5 * lens.fovYRadians) / kMargin;
     const Reach reach = reachOf(box, pose.heading, {tanHalf * aspect, tanHalf}, aspect);
 
-    // What is flat or thin along the view must not come to lie in the eye: this share of the diagonal stays free.
+    // Keeps the eye out of boxes that are flat or thin along the view: this fraction of the diagonal stays free.
     constexpr double kLeastShare = 0.05;
     const double leastMetres = reach.depthMetres + kLeastShare * diagonalMetres; // the box is symmetric
     CameraPose framed = pose;

@@ -36,7 +36,7 @@ Heading headingOf(const glm::dmat3& worldFromCamera) {
     const glm::dvec3 forwardWS = -worldFromCamera[2];
     const double level = std::hypot(forwardWS.x, forwardWS.z);
     Heading heading;
-    // A forward axis from a matrix is good to about 1e-16; the yaw taken from a shorter level part would be noise.
+    // A matrix's forward axis is accurate to about 1e-16; the yaw of a shorter horizontal part would be noise.
     constexpr double kShortestLevel = 1e-9;
     if (level < kShortestLevel) {
         heading.pitchRadians = std::copysign(0.5 * std::numbers::pi, forwardWS.y);
@@ -46,7 +46,7 @@ Heading headingOf(const glm::dmat3& worldFromCamera) {
     heading.pitchRadians = std::atan2(forwardWS.y, level);
     heading.yawRadians = std::atan2(-forwardWS.x, -forwardWS.z);
     const double roll = std::atan2(glm::dot(rightWS, levelUpWS(heading)), glm::dot(rightWS, levelRightWS(heading)));
-    // What rounding leaves of an upright camera would keep it from ever being level again.
+    // Removes the roll that rounding leaves to an upright camera, which would never be level again.
     constexpr double kLeastRollRadians = 1e-12;
     heading.rollRadians = std::abs(roll) < kLeastRollRadians ? 0.0 : roll;
     return heading;
@@ -54,7 +54,7 @@ Heading headingOf(const glm::dmat3& worldFromCamera) {
 
 Heading turned(const Heading& heading, double leftRadians, double upRadians) {
     const double c = std::cos(heading.rollRadians), s = std::sin(heading.rollRadians);
-    // A yaw moves the picture's middle by its cosine's share only. From 75 degrees on that is made up for no more.
+    // A yaw moves the image centre by cos(pitch) only. Beyond 75 degrees this is not compensated.
     constexpr double kLeastLevel = 0.25;
     Heading result = heading;
     result.yawRadians += (c * leftRadians + s * upRadians) / std::max(std::cos(heading.pitchRadians), kLeastLevel);

@@ -14,12 +14,12 @@ namespace {
 constexpr double kNearestMetres = 1e-6;
 constexpr double kFarthestMetres = 1e9;
 
-/// Radians a pixel by which a ball about the pivot turns under the cursor. Its radius is a quarter of the picture's
-/// height at the pivot, and at most half the distance, so that the eye stays outside.
+/// Radians per pixel so that a ball about the pivot turns under the cursor. Its radius is a quarter of the image height
+/// at the pivot, and at most half the distance, so that the eye stays outside.
 double turnPerPixel(const scenes::Camera& lens, double heightPixels) {
     if (lens.projection == scenes::Projection::Orthographic) return 4.0 / heightPixels;
     const double tanHalf = std::tan(0.5 * lens.fovYRadians);
-    const double radius = std::min(0.5 * tanHalf, 0.5); // as a share of the distance
+    const double radius = std::min(0.5 * tanHalf, 0.5); // relative to the distance
     return 2.0 * tanHalf * (1.0 - radius) / (radius * heightPixels);
 }
 
@@ -34,7 +34,7 @@ OrbitCamera::State OrbitCamera::stateOf(const CameraPose& pose) {
     return {pose.eyeWS + pose.focusMetres * pose.heading.forwardWS(), pose};
 }
 
-/// What moves by nothing stays where it is to the last bit.
+/// Zero movements keep the goal bit-identical.
 void OrbitCamera::changeGoal(State goal) {
     if (goal == goal_) return;
     goal.placeEye();
@@ -43,7 +43,7 @@ void OrbitCamera::changeGoal(State goal) {
 
 void OrbitCamera::rotate(const glm::dvec2& dragPixels, double heightPixels) {
     const glm::dvec2 angles = dragPixels * turnPerPixel(lens_, heightPixels);
-    // Pulling the front to the right takes the eye to the left, and the view with it to the right.
+    // Dragging the front to the right moves the eye to the left, and turns the view to the right.
     State goal = goal_;
     goal.pose.heading = turned(goal.pose.heading, -angles.x, -angles.y);
     changeGoal(goal);
@@ -81,7 +81,7 @@ void OrbitCamera::jumpTo(const CameraPose& pose) {
     shown_ = goal_ = stateOf(pose);
 }
 
-/// How far the picture is from the goal's, as an upper bound of movement at the pivot's depth.
+/// Upper bound of the remaining movement in pixels at the pivot's depth.
 double OrbitCamera::pixelsToGoal(double heightPixels) const {
     const CameraPose& from = shown_.pose;
     const CameraPose& to = goal_.pose;
@@ -104,7 +104,7 @@ void OrbitCamera::advance(double stepSeconds, double heightPixels) {
     approach(from.heading.rollRadians, to.heading.rollRadians);
     approach(from.focusMetres, to.focusMetres);
     approach(from.halfHeightMetres, to.halfHeightMetres);
-    from.nearMetres = to.nearMetres; // no picture changes with them while things lie between
+    from.nearMetres = to.nearMetres; // undamped: no visible change while all geometry lies between the planes
     from.nearFocusMetres = to.nearFocusMetres;
     from.farMetres = to.farMetres;
     shown_.placeEye();

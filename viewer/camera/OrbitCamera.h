@@ -3,38 +3,38 @@
 
 namespace tessera::viewer {
 
-/// Turns about a pivot, moves across the picture and zooms, all damped. Pixels count from the top, `heightPixels` is
-/// the picture's; sub-pixel steps are welcome.
+/// Orbit camera: rotates about a pivot, pans and zooms, all damped. Pixels count from the top, `heightPixels` is the
+/// image height; sub-pixel steps are supported.
 class OrbitCamera {
 public:
-    /// `lens` says projection and field of view.
+    /// `lens` supplies projection and field of view.
     OrbitCamera(const CameraPose& pose, const scenes::Camera& lens);
 
-    /// Drags a ball about the pivot, half as high as the picture: the point of its front under the cursor follows.
+    /// Rotates a ball about the pivot, half as high as the image: the point on its front under the cursor follows.
     void rotate(const glm::dvec2& dragPixels, double heightPixels);
     /// The point under the cursor, at the pivot's depth, follows exactly.
     void pan(const glm::dvec2& dragPixels, double heightPixels);
-    /// Scales the distance (orthographic: the height of the picture) by `factor` > 0, below 1 to go nearer. The point
-    /// under the cursor, at the pivot's depth, stays there; the cursor is given from the picture's centre.
+    /// Scales the distance (orthographic: the image height) by `factor` > 0; below 1 moves closer. The point under the
+    /// cursor, at the pivot's depth, stays fixed; the cursor is relative to the image centre.
     void zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels);
 
-    /// Goes to a pose, damped; the shorter way round. At rest it is exactly there.
+    /// Moves to a pose, damped, by the shorter turn. The end pose is exact.
     void goTo(const CameraPose& pose);
-    /// Is at a pose at once.
+    /// Jumps to a pose without damping.
     void jumpTo(const CameraPose& pose);
 
-    /// Moves on by a span of time. Two half steps are one step. Nearer to the goal than a visible pixel it is there.
+    /// Advances the movement. Two half steps equal one step. Snaps to the goal below kRestPixels.
     void advance(double stepSeconds, double heightPixels);
-    /// Nothing will change until something is asked: redrawing may end.
+    /// Nothing changes until the next input: redrawing may stop.
     bool isAtRest() const { return shown_ == goal_; }
 
-    const CameraPose& pose() const { return shown_.pose; } ///< what to draw
-    const CameraPose& goal() const { return goal_.pose; }  ///< what it moves towards
+    const CameraPose& pose() const { return shown_.pose; } ///< to be drawn
+    const CameraPose& goal() const { return goal_.pose; }  ///< end of the movement
     const glm::dvec3& pivotWS() const { return shown_.pivotWS; }
 
 private:
-    /// The eye follows from the pivot wherever one of them moves. That of a pose which was asked for stays as it was
-    /// said: through the pivot and back, rounding would move it.
+    /// The eye follows from the pivot when either moves. A requested pose keeps its exact eye, which rounding would
+    /// change on the way through the pivot and back.
     struct State {
         glm::dvec3 pivotWS{0.0};
         CameraPose pose;

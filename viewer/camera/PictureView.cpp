@@ -7,7 +7,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// The part of a line inside the picture. Source: Liang and Barsky 1984, "A New Concept and Method for Line Clipping".
+/// Clips a line to the image. Source: Liang and Barsky 1984, "A New Concept and Method for Line Clipping".
 std::optional<std::pair<glm::dvec2, glm::dvec2>> insidePicture(const glm::dvec2& a, const glm::dvec2& b,
                                                                const glm::dvec2& size) {
     const glm::dvec2 step = b - a;
@@ -52,7 +52,7 @@ std::optional<glm::dvec2> PictureView::placeOf(const glm::dvec3& positionWS) con
 std::optional<std::pair<glm::dvec2, glm::dvec2>> PictureView::lineBetween(const glm::dvec3& aWS,
                                                                           const glm::dvec3& bWS) const {
     glm::dvec3 aVS(cameraFromWorld_ * glm::dvec4(aWS, 1.0)), bVS(cameraFromWorld_ * glm::dvec4(bWS, 1.0));
-    const double beyondA = -aVS.z - nearMetres_, beyondB = -bVS.z - nearMetres_; // the near plane
+    const double beyondA = -aVS.z - nearMetres_, beyondB = -bVS.z - nearMetres_; // depth behind the near plane
     const auto atNearPlane = [&] {
         glm::dvec3 crossingVS = glm::mix(aVS, bVS, beyondA / (beyondA - beyondB));
         crossingVS.z = -nearMetres_;

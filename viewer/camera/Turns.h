@@ -6,13 +6,13 @@
 
 namespace tessera::viewer {
 
-/// The angle nearest to `from` among those that are `angle` and whole turns.
+/// The angle equal to `angleRadians` up to whole turns that is nearest to `fromRadians`.
 inline double nearestTurn(double angleRadians, double fromRadians) {
     const double turn = 2.0 * std::numbers::pi;
     return angleRadians + turn * std::round((fromRadians - angleRadians) / turn);
 }
 
-/// The same heading with yaw and roll nearest to another's, so that going there takes the shorter way round.
+/// The same heading with yaw and roll nearest to those of `from`, so that the movement takes the shorter turn.
 inline Heading nearestTurn(Heading heading, const Heading& from) {
     heading.yawRadians = nearestTurn(heading.yawRadians, from.yawRadians);
     heading.rollRadians = nearestTurn(heading.rollRadians, from.rollRadians);

@@ -5,14 +5,14 @@
 
 #include "scenes/Scene.h"
 
-/// Which lights shine on a place, without regard to surfaces.
+/// Lights that reach a position, ignoring surfaces.
 namespace tessera::viewer {
 
-/// The index of the light that lights a place most at a time, of those that are on; none where none does.
+/// Index of the enabled light with the highest illuminance at a position and a time; none if no light reaches it.
 std::optional<int> brightestAt(const std::vector<scenes::Light>& lights, const glm::dvec3& positionWS,
                                double timeSeconds);
 
-/// How many of those that are on reach it: closer than their range, inside their cone, with colour and intensity.
+/// Number of enabled lights that reach it: within their range and cone, with colour and intensity.
 std::size_t lightsReaching(const std::vector<scenes::Light>& lights, const glm::dvec3& positionWS, double timeSeconds);
 
 } // namespace tessera::viewer

@@ -7,7 +7,7 @@ namespace {
 
 scenes::Camera cameraIn(const scenes::Box3& boundsWS) {
     scenes::Camera camera;
-    camera.projection = scenes::Projection::Orthographic; // nothing is too near for parallel rays
+    camera.projection = scenes::Projection::Orthographic; // parallel rays have no minimum distance
     camera.nearMetres = 0.0;
     if (boundsWS.empty()) return camera;
     camera.worldFromCamera[3] = glm::dvec4(0.5 * (boundsWS.min + boundsWS.max), 1.0);

@@ -9,15 +9,15 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr float kSmoothPixels = 1.0f; ///< as high as the steps of an edge that slants
-/// The most sides of a piece that is smoothed by itself. Where each point that stays cuts off one side alone, as on a
-/// comb, a piece takes the square of this.
+constexpr float kSmoothPixels = 1.0f; ///< height of the steps of a slanted edge
+/// Most sides of a piece that is simplified separately. If each point that stays cuts off only one side, as on a comb,
+/// a piece takes time proportional to the square of this.
 constexpr std::size_t kPieceSides = 128;
 
-/// Ways along the sides of pixels from one of their corners, each with the inside at its right.
+/// Directions along pixel sides from a corner, each with the inside on its right.
 constexpr std::array<glm::ivec2, 4> kWays{glm::ivec2(1, 0), glm::ivec2(0, 1), glm::ivec2(-1, 0), glm::ivec2(0, -1)};
 
-/// The sides of pixels that a contour has, as ways that leave their corners.
+/// The pixel sides of contours, stored as directions that leave their corners.
 class Sides {
 public:
     Sides(std::span<const std::uint8_t> isInside, glm::ivec2 sizePixels)
@@ -34,7 +34,7 @@ public:
                 if (x > 0 && !at(x - 1, y)) add({x, y + 1}, 3);
             }
     }
-    /// First the contours that the picture's sides cut off, from their beginnings, then closed ones.
+    /// First the contours that the image border cuts off, from their starts, then closed ones.
     std::vector<Contour> takeAll() {
         std::vector<Contour> contours;
         for (const bool isCut : {true, false})
@@ -54,7 +54,7 @@ private:
         ways(from) |= std::uint8_t(1u << way);
         ++entering_[indexOf(from + kWays[way])];
     }
-    /// The contour that leaves a corner, as far as it goes; its straight parts are lines.
+    /// Follows the contour that leaves a corner to its end, and merges straight runs.
     Contour take(glm::ivec2 corner) {
         Contour contour{glm::vec2(corner)};
         int latest = -1;
@@ -72,7 +72,7 @@ private:
         return contour;
     }
 
-    glm::ivec2 size_; ///< in corners
+    glm::ivec2 size_; ///< in pixel corners
     std::vector<std::uint8_t> leaving_, entering_;
 };
 
@@ -83,8 +83,8 @@ float distanceToLine(const glm::vec2& point, const glm::vec2& begin, const glm::
     return glm::distance(point, begin + share * along);
 }
 
-/// Leaves out points that lie within so many pixels of the line between those that stay. The ends of pieces of
-/// kPieceSides stay, so that the time grows with the number of points, whatever they are.
+/// Removes points within this distance from the line between the remaining ones. The ends of pieces of kPieceSides
+/// stay, so that the time is linear in the number of points.
 /// Source: Douglas and Peucker 1973, "Algorithms for the reduction of the number of points required to represent a
 /// digitized line or its caricature".
 Contour smoothed(const Contour& contour, float pixels) {
@@ -138,8 +138,8 @@ std::vector<Contour> contoursOf(std::span<const std::uint8_t> isInside, glm::ive
     std::size_t points = 0;
     for (const auto& [length, contour] : found) {
         Contour smooth = smoothed(contour, kSmoothPixels);
-        if (contours.empty()) // it stays, as of leaves that all hang together
-            // Once the picture lies within so many pixels, only ends of pieces stay, each time fewer of them.
+        if (contours.empty()) // the longest contour always stays, for example of connected foliage
+            // Once the tolerance exceeds the image, only the ends of pieces stay, fewer each time.
             for (float pixels = 2.0f * kSmoothPixels; smooth.size() > kMostContourPoints; pixels *= 2.0f)
                 smooth = smoothed(smooth, pixels);
         points += smooth.size();

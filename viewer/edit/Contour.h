@@ -7,16 +7,16 @@
 
 namespace tessera::viewer {
 
-/// Where a contour goes, in pixels from the picture's upper left, whose side is at 0: a closed one ends where it
-/// begins, one that is cut off by the picture's sides ends at those.
+/// A contour in pixels from the image's upper left corner: a closed one ends where it begins, one that the image border
+/// cuts off ends there.
 using Contour = std::vector<glm::vec2>;
 
-/// Of all contours of a picture together: more would take a frame to draw, and show nothing.
+/// For all contours of an image together: more would take a frame to draw without showing more.
 inline constexpr std::size_t kMostContourPoints = 4096;
 
-/// The contours between pixels that are inside and those that are not, rows from the top, smoothed to within a pixel.
-/// The longest of them, up to kMostContourPoints points; the very longest is smoothed more where it has more. The
-/// picture's own sides are none.
+/// The contours between inside and outside pixels, rows from the top, simplified to within a pixel. Only the longest
+/// are returned, up to kMostContourPoints points; the longest one is simplified further if it has more. The image
+/// border is not a contour.
 std::vector<Contour> contoursOf(std::span<const std::uint8_t> isInside, glm::ivec2 sizePixels);
 
 } // namespace tessera::viewer

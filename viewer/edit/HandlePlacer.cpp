@@ -7,13 +7,13 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kLeastAway = 20.0;  ///< of handles from the light's middle, where its marker is
-constexpr double kLeastTurn = 40.0;  ///< the same of its direction's, which stands clear of the others
-constexpr double kLeastApart = 20.0; ///< of handles from each other: a press takes what lies within 9
-constexpr double kMostAside = 200.0; ///< that a handle gives way to others
-constexpr double kLeastWay = 1.0;    ///< from the middle, below which what is dragged anywhere has no way outwards
-constexpr double kLeastSeen = 0.02;  ///< sine to the line of sight of axes that can be dragged along: 1 degree
-constexpr double kLeastArmSeen = 0.20791169081775934; ///< the same of arms: 12 degrees, 21 of their 100 are seen then
+constexpr double kLeastAway = 20.0;  ///< least distance of handles from the light's marker at its middle
+constexpr double kLeastTurn = 40.0;  ///< the same for its direction handle, which stays clear of the others
+constexpr double kLeastApart = 20.0; ///< least distance between handles: a press grabs within 9
+constexpr double kMostAside = 200.0; ///< largest offset to avoid other handles
+constexpr double kLeastWay = 1.0;    ///< distance from the middle below which a free handle has no outward direction
+constexpr double kLeastSeen = 0.02;  ///< least sine between a draggable axis and the line of sight: 1 degree
+constexpr double kLeastArmSeen = 0.20791169081775934; ///< the same for arms: 12 degrees, 21 of their 100 visible
 
 } // namespace
 
@@ -25,7 +25,7 @@ void HandlePlacer::add(LightHandle handle) {
     const glm::dvec3 towardsWS = view_.towardsViewerWS(handle.moves() ? figure_.middleWS : handle.positionWS);
     if (handle.turns()) {
         standOff(handle, kLeastTurn);
-    } else if (handle.isDraggedAnywhere()) { // a corner, whose plane must not be seen from its edge
+    } else if (handle.isDraggedAnywhere()) { // a corner, whose plane must not be seen edge-on
         if (std::abs(glm::dot(light_.directionWS, towardsWS)) < kLeastSeen) return;
         standOff(handle, kLeastAway);
     } else {
@@ -35,7 +35,7 @@ void HandlePlacer::add(LightHandle handle) {
         if (!beyond || *beyond == *shown) return;
         handle.way = glm::normalize(*beyond - *shown);
         const bool isClear = standOff(handle, kLeastAway);
-        if (handle.moves() && !isClear) return; // the light is moved by its marker, too
+        if (handle.moves() && !isClear) return; // the light can be moved by its marker, too
     }
     if (isInPicture(handle.place)) figure_.handles.push_back(handle);
 }
@@ -50,7 +50,7 @@ bool HandlePlacer::standOff(LightHandle& handle, double least) const {
     if (!middle) return false;
     const glm::dvec2 away = handle.truePlace - *middle;
     glm::dvec2 way = handle.way;
-    if (handle.isDraggedAnywhere()) // at the middle: between sides that are level and upright
+    if (handle.isDraggedAnywhere()) // at the middle: diagonally, between level and upright sides
         way = glm::normalize(glm::length(away) < kLeastWay * scale_ ? glm::dvec2(1.0, -1.0) : away);
     if (glm::length(away) < least * scale_) handle.place = *middle + least * scale_ * way;
     const auto isClear = [&](const glm::dvec2& place) {

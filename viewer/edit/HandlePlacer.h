@@ -3,28 +3,28 @@
 
 namespace tessera::viewer {
 
-/// Adds handles to the figure of a light, each where the picture has a place for it: clear of the light's marker and of
-/// the handles before it.
+/// Adds a light's handles to its figure, each if the image has room for it: clear of the light's marker and of earlier
+/// handles.
 class HandlePlacer {
 public:
-    /// As lightFigure() has them. The figure has its middle, and the sun of a directional light, when handles come.
+    /// As for lightFigure(). The figure's middle, and a directional light's sun, must be set before add().
     HandlePlacer(const scenes::Light& light, const PictureView& view, double scale, LightFigure& figure)
         : light_(light), view_(view), scale_(scale), figure_(figure) {}
 
-    /// If the picture shows it, and a drag would change something.
+    /// Adds a handle if it is visible, and dragging it has an effect.
     void add(LightHandle handle);
 
 private:
     bool isInPicture(const glm::dvec2& place) const;
-    /// Keeps a handle so far from the light's marker, which would be taken in its place, and outwards clear of the
-    /// handles before it. A sun has neither. Returns whether the picture has such a place.
+    /// Keeps a handle at least this far from the light's marker, which would be grabbed instead, and moves it outwards
+    /// clear of earlier handles. A sun needs neither. Returns whether the image has such a position.
     bool standOff(LightHandle& handle, double least) const;
 
     const scenes::Light& light_;
     const PictureView& view_;
     double scale_;
     LightFigure& figure_;
-    int count_ = 0; ///< of handles
+    int count_ = 0; ///< of handles so far
 };
 
 } // namespace tessera::viewer

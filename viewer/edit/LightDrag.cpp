@@ -11,9 +11,9 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kLeastSineSquare = 1e-4; ///< of an axis or a plane and a line: 0.6 degrees
+constexpr double kLeastSineSquare = 1e-4; ///< between an axis or a plane and a line: 0.6 degrees
 
-/// The part of a vector across a unit direction.
+/// The component of a vector perpendicular to a unit direction.
 glm::dvec3 partAcross(const glm::dvec3& vectorWS, const glm::dvec3& directionWS) {
     return vectorWS - glm::dot(vectorWS, directionWS) * directionWS;
 }
@@ -33,7 +33,7 @@ std::optional<double> metresAlongAxis(const SightLine& line, const glm::dvec3& m
 
 SpherePoint pointOnSphere(const SightLine& line, const glm::dvec3& middleWS, double radiusMetres, bool isFar) {
     const glm::dvec3 fromMiddleWS = line.originWS - middleWS;
-    const glm::dvec3 nearestWS = partAcross(fromMiddleWS, line.directionWS); // of the line, from the middle
+    const glm::dvec3 nearestWS = partAcross(fromMiddleWS, line.directionWS); // on the line, from the middle
     const double halfSquare = radiusMetres * radiusMetres - glm::dot(nearestWS, nearestWS);
     if (halfSquare < 0.0) return {glm::normalize(nearestWS), true};
     const double halfMetres = std::sqrt(halfSquare), middleMetres = -glm::dot(fromMiddleWS, line.directionWS);
@@ -102,7 +102,7 @@ std::optional<double> LightDrag::draggedMetres(const SightLine& axis, const Sigh
     if (!handle_.isRound) return metresAlongAxis(line, middleWS, handle_.axisWS);
     const glm::dvec3 fromMiddleWS = line.originWS - middleWS;
     if (before_.type != scenes::LightType::Tube) return glm::length(partAcross(fromMiddleWS, line.directionWS));
-    // From the tube's axis to the line.
+    // The distance between the tube's axis and the line.
     const glm::dvec3 normalWS = glm::cross(line.directionWS, axis.directionWS);
     const double sineSquare = glm::dot(normalWS, normalWS);
     if (sineSquare < kLeastSineSquare) return std::nullopt;

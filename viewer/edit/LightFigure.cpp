@@ -11,16 +11,16 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kArm = 70.0;       ///< from a light's middle or end to the handle of its direction
-constexpr double kMoveArm = 100.0;  ///< the same to the ends of the arms that move a light, where they lie across
-constexpr double kMostArm = 0.2;    ///< of both, share of the picture's shorter side: they must not reach the viewer
-constexpr double kSunInset = 100.0; ///< of a directional light's sun from the picture's right and upper side
-constexpr double kSunRoom = 3.0;    ///< insets that a picture is wide and high which has room for it
+constexpr double kArm = 70.0;       ///< from a light's middle or end to its direction handle
+constexpr double kMoveArm = 100.0;  ///< the same to the ends of the move arms, if seen from the side
+constexpr double kMostArm = 0.2;    ///< of both, fraction of the image's shorter side: they must not reach the viewer
+constexpr double kSunInset = 100.0; ///< of a directional light's sun from the image's right and upper edge
+constexpr double kSunRoom = 3.0;    ///< least width and height of an image with room for it, in insets
 constexpr int kCircleSteps = 48;
 
 using Outline = std::vector<glm::dvec3>;
 
-/// A closed line; the half axes are at right angles.
+/// A closed line; the half axes are perpendicular.
 Outline ellipseWS(const glm::dvec3& centreWS, const glm::dvec3& halfWS, const glm::dvec3& otherHalfWS) {
     Outline ellipse;
     for (int step = 0; step <= kCircleSteps; ++step) {
@@ -30,18 +30,18 @@ Outline ellipseWS(const glm::dvec3& centreWS, const glm::dvec3& halfWS, const gl
     return ellipse;
 }
 
-/// Where lines of sight touch a circle, in its plane: metres from its centre towards the eye, and aside.
+/// Where lines of sight touch a circle, in its plane: metres from its centre towards the eye, and sideways.
 struct Rim {
     double towards = 0.0, aside = 0.0;
 };
-/// None where the eye, so far from the centre (infinite: orthographic), is inside.
+/// None if the eye is inside. Its distance from the centre may be infinite (orthographic).
 std::optional<Rim> rimOf(double radiusMetres, double eyeMetres) {
     if (!(eyeMetres > radiusMetres)) return std::nullopt;
     const double cosine = radiusMetres / eyeMetres;
     return Rim{radiusMetres * cosine, radiusMetres * std::sqrt(1.0 - cosine * cosine)};
 }
 
-/// Adds what a light's type has to a figure.
+/// Adds the parts of a light's type to a figure.
 class FigureMaker {
 public:
     FigureMaker(const scenes::Light& light, const PictureView& view, double scale, LightFigure& figure)
@@ -53,7 +53,7 @@ public:
             figure_.middleWS = light_.positionWS;
         else if (!placeSun())
             return;
-        double reachMetres = 0.0; // of the outline along the direction
+        double reachMetres = 0.0; // extent of the outline along the direction
         switch (light_.type) {
         case scenes::LightType::Spot:
             addCone();
@@ -78,7 +78,7 @@ public:
             break;
         }
         if (info.hasDirection) addDirection(reachMetres);
-        if (info.hasPosition()) addArms(); // last: they give way to the others
+        if (info.hasPosition()) addArms(); // last: they yield to the other handles
         if (info.hasPosition() && light_.falloff != scenes::Falloff::Attenuation && std::isfinite(light_.rangeMetres))
             addRange();
     }
@@ -89,14 +89,14 @@ private:
         if (std::min(view_.size().x, view_.size().y) < kSunRoom * inset) return false;
         figure_.sun = glm::dvec2(view_.size().x - inset, inset);
         const SightLine line = view_.sightLineAt(*figure_.sun);
-        // Any depth will do from which the arm does not reach back to the near plane.
+        // Any depth will do at which the arm does not reach back to the near plane.
         const double nearMetres = std::max(view_.nearMetres(), 1e-3);
         figure_.middleWS = line.originWS + 10.0 * nearMetres * line.directionWS;
         if (!view_.isPerspective()) figure_.middleWS += 2.0 * armMetres(kArm).value_or(0.0) * line.directionWS;
         return true;
     }
 
-    /// Of an arm that is shown so long where it lies across; none where the middle lies behind the camera.
+    /// World length of an arm with this length in a side view; none if the middle lies behind the camera.
     std::optional<double> armMetres(double lengthUnits) const {
         const std::optional<double> metresPerUnit = view_.metresPerUnit(figure_.middleWS);
         if (!metresPerUnit) return std::nullopt;
@@ -110,7 +110,7 @@ private:
         return found != info.parameters.end() ? &*found : scenes::sizeParameter(info);
     }
 
-    /// Handles on both sides of the middle that change a length along an axis.
+    /// Adds handles on both sides of the middle that change a length along an axis.
     void addPair(float scenes::Light::*member, const glm::dvec3& axisWS, double share) {
         for (const double side : {1.0, -1.0}) {
             LightHandle handle;
@@ -122,9 +122,9 @@ private:
         }
     }
 
-    /// As far as the handle of its direction.
+    /// Draws the cone as far as the direction handle.
     void addCone() {
-        constexpr double kWidestRadians = 1.4; // wider ones would fill the picture
+        constexpr double kWidestRadians = 1.4; // wider cones would fill the image
         const std::optional<double> arm = armMetres(kArm);
         if (!arm || double(light_.outerConeRadians) > kWidestRadians) return;
         const double radiusMetres = *arm * std::tan(double(light_.outerConeRadians));
@@ -136,7 +136,7 @@ private:
         figure_.outlinesWS.push_back({endWS + acrossWS, figure_.middleWS, endWS - acrossWS});
     }
 
-    /// A spot's cone, of all others the outline of a sphere, or its level circle for an eye that is inside.
+    /// For a spot its cone, for other lights the outline of a sphere, or its horizontal circle if the eye is inside.
     void addRange() {
         const double rangeMetres = light_.rangeMetres, coneRadians = light_.outerConeRadians;
         const glm::dvec3& middleWS = figure_.middleWS;
@@ -233,7 +233,7 @@ private:
             figure_.outlinesWS.push_back(
                 ellipseWS(figure_.middleWS + side * halfWS, radiusMetres * alongWS, radiusMetres * acrossWS));
         addPair(&scenes::Light::lengthMetres, axisWS, 0.5);
-        // Its sides are seen where lines of sight touch its cross-section.
+        // Its silhouette lies where lines of sight touch its cross-section.
         const glm::dvec3 eyeFromMiddleWS = view_.eyeWS() - figure_.middleWS;
         const glm::dvec3 eyeAcrossWS = eyeFromMiddleWS - glm::dot(eyeFromMiddleWS, axisWS) * axisWS;
         const std::optional<Rim> rim = rimOf(radiusMetres, eyeMetres(eyeAcrossWS));
@@ -258,8 +258,8 @@ private:
         placer_.add(handle);
     }
 
-    /// Along the axes of the world. For an arm that points nearly at the eye, or away, a little of the picture would be
-    /// far in the scene.
+    /// Along the world axes. For an arm that points nearly at the eye, or away, a small movement in the image is a
+    /// large one in the scene.
     void addArms() {
         const std::optional<double> arm = armMetres(kMoveArm);
         if (!arm) return;

@@ -20,7 +20,7 @@ using scenes::LightAnimationKind;
 using scenes::LightKeyed;
 using scenes::LightKeys;
 
-/// The keyframes of a member of a light that may change, or may not.
+/// The keyframes of a member of a light, const if the light is.
 auto* keysIn(auto& light, LightKeyed member) {
     using Keys =
         std::conditional_t<std::is_const_v<std::remove_reference_t<decltype(light)>>, const LightKeys, LightKeys>;
@@ -34,7 +34,7 @@ auto* keysIn(auto& light, LightKeyed member) {
     return keys;
 }
 
-/// What a member of a light is, x of a number.
+/// A member of a light; a number is in x.
 glm::dvec3 memberOf(const Light& light, LightKeyed member) {
     return std::visit(
         [&](auto at) {
@@ -47,13 +47,13 @@ glm::dvec3 memberOf(const Light& light, LightKeyed member) {
         scenes::infoOf(member).at);
 }
 
-/// What the light shows at a time but for its flicker, which multiplies what keys say.
+/// The member that the light has at a time without its flicker, which multiplies the keyed value.
 glm::dvec3 shownMember(Light light, LightKeyed member, double timeSeconds) {
     light.flicker.reset();
     return memberOf(scenes::lightAtTime(light, timeSeconds), member);
 }
 
-/// From the key before to the one after, per second; one-sided at the ends.
+/// Slope from the previous key to the next, per second; one-sided at the ends.
 glm::dvec3 slopeAt(const LightKeys& keys, std::size_t key) {
     const std::size_t before = key > 0 ? key - 1 : key, after = std::min(key + 1, keys.values.size() - 1);
     if (before == after) return glm::dvec3(0.0);
@@ -64,7 +64,7 @@ bool isSpline(const LightKeys& keys) {
     return keys.interpolation == scenes::Interpolation::CubicSpline;
 }
 
-/// The share of a period at which a movement begins at a time.
+/// The phase of a movement that begins at a time.
 double phaseOfBegin(double timeSeconds, double periodSeconds) {
     const double turns = timeSeconds / periodSeconds;
     return std::ceil(turns) - turns;
@@ -81,7 +81,7 @@ LightKeys keysOfPath(const LightAnimation& path) {
     return keys;
 }
 
-/// The keys' places, each once in a row, as a path that takes as long.
+/// The positions of keys as a path of the same duration, closed if the last one repeats the first.
 LightAnimation pathOfKeys(const LightKeys& keys) {
     LightAnimation path;
     path.kind = LightAnimationKind::Path;
@@ -110,7 +110,7 @@ std::size_t addKey(Light& light, LightKeyed member, double timeSeconds) {
         if (member == LightKeyed::Position) {
             light.animation.emplace().kind = LightAnimationKind::Keyframes;
         } else {
-            // In the order of files, which is that of keyedMembers().
+            // In the order of files: that of keyedMembers().
             const auto place = std::ranges::upper_bound(light.keyframes, member, {}, &LightKeys::of);
             light.keyframes.insert(place, LightKeys())->of = member;
             if (member == LightKeyed::Direction && light.animation) light.animation->looksAhead = false;
@@ -139,7 +139,7 @@ void removeKey(Light& light, LightKeyed member, std::size_t key) {
             light.animation.reset();
         else
             std::erase_if(light.keyframes, [&](const LightKeys& one) { return one.of == member; });
-        if (member == LightKeyed::Direction) return turnLight(light, last); // and what lies across it
+        if (member == LightKeyed::Direction) return turnLight(light, last); // also turns alongWS
         return scenes::setKeyed(light, member, last);
     }
     const auto eraseFrom = [key](auto& list) { list.erase(list.begin() + std::ptrdiff_t(key)); };
@@ -181,7 +181,7 @@ void setRepeat(Light& light, LightKeyed member, scenes::KeyRepeat repeat) {
     keysIn(light, member)->repeat = repeat;
 }
 
-// ---- Ways ----------------------------------------------------------------------------------------------------------
+// ---- Paths ---------------------------------------------------------------------------------------------------------
 
 void chooseWay(Light& light, LightAnimationKind kind, double timeSeconds, double sizeMetres) {
     assert(scenes::infoOf(light.type).hasPosition() && sizeMetres > 0.0);

@@ -15,7 +15,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Names that no light has yet, one after the other.
+/// Generates names that no light has yet.
 class FreeNames {
 public:
     explicit FreeNames(const Lights& lights) {
@@ -31,10 +31,10 @@ public:
 
 private:
     std::unordered_set<std::string> taken_;
-    std::unordered_map<std::string, int> next_; ///< number to try
+    std::unordered_map<std::string, int> next_; ///< next number to try
 };
 
-/// Of a rectangle: a polygon's x runs along its width.
+/// The corners of a rectangle; a polygon's x runs along its width.
 scenes::LightCorners cornersOfSides(const scenes::Light& light) {
     scenes::LightCorners corners; // of a square of 1 m
     for (glm::vec2& corner : corners.metres) corner *= glm::vec2(light.widthMetres, light.heightMetres);
@@ -102,7 +102,7 @@ void chooseType(scenes::Light& light, scenes::LightType type, double sceneSizeMe
         if (hadSides && light.corners == scenes::LightCorners()) light.corners = cornersOfSides(light);
         if (!scenes::hasSurface(light)) light.corners = {};
     }
-    constexpr double kSquare = 1e-12; // cosine, of rounding: what was square stays as it is
+    constexpr double kSquare = 1e-12; // cosine, within rounding: a perpendicular vector stays unchanged
     const bool isSquare = std::abs(glm::dot(light.alongWS, light.directionWS)) <= kSquare;
     if (scenes::infoOf(type).isTurned() && !isSquare && !layLight(light, light.alongWS))
         light.alongWS = scenes::usualAlong(light.directionWS);
@@ -157,7 +157,7 @@ bool removeCorner(scenes::Light& light) {
 
 void turnLight(scenes::Light& light, const glm::dvec3& directionWS) {
     const glm::dvec3 turnedWS = glm::normalize(directionWS);
-    if (turnedWS != light.directionWS) { // by hand
+    if (turnedWS != light.directionWS) { // turned by hand
         std::erase_if(light.keyframes, [](const auto& keys) { return keys.of == scenes::LightKeyed::Direction; });
         if (light.animation) light.animation->looksAhead = false;
     }
@@ -210,7 +210,7 @@ void orbitLight(scenes::Light& light, double radiusMetres, double periodSeconds,
 }
 
 void stopLight(scenes::Light& light, double timeSeconds) {
-    const std::optional<scenes::LightFlicker> flicker = std::exchange(light.flicker, {}); // it flickers on
+    const std::optional<scenes::LightFlicker> flicker = std::exchange(light.flicker, {}); // the flicker stays
     light = scenes::lightAtTime(light, timeSeconds);
     light.flicker = flicker;
     light.animation.reset();

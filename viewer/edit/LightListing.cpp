@@ -22,7 +22,7 @@ std::string kindOf(const scenes::Light& light) {
     return std::string(scenes::infoOf(light.type).name);
 }
 
-/// A name as its beginning, the length of the number at its end, and that number: these compare as people count.
+/// A name's prefix, digit count and trailing number, which sort in natural order.
 std::tuple<std::string, std::size_t, std::string> countedName(const std::string& label) {
     std::size_t end = label.size();
     while (end > 0 && std::isdigit(static_cast<unsigned char>(label[end - 1])) != 0) --end;
@@ -89,7 +89,7 @@ std::vector<ListedLight> listedLights(const Lights& lights, const LightListing& 
         const auto known = groups.find(group);
         if (known == groups.end()) {
             rows.push_back({light, {}, {}});
-        } else if (known->second.front() == light) { // the first stands for all
+        } else if (known->second.front() == light) { // the first light of a group inserts its rows
             rows.push_back({scenes::kNone, group, known->second});
             if (listing.search.empty() && !listing.unfolded.contains(group)) continue;
             for (const int one : known->second) rows.push_back({one, group, {}});

@@ -8,7 +8,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// As long as any text of a double of a few decimals: 309 digits before the point.
+/// Long enough for any double with a few decimals: 309 digits before the point.
 using PrintedNumber = std::array<char, 400>;
 
 PrintedNumber printed(const char* format, double value) {

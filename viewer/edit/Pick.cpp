@@ -10,7 +10,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// The mesh instance of a number in document order, with the triangle.
+/// The mesh instance with a number in document order, with the triangle.
 std::optional<Pick> instanceNumbered(const scenes::Scene& scene, std::size_t number, std::size_t triangle) {
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         const std::vector<scenes::MeshInstance>& instances = scene.nodes[node].instances;

@@ -15,23 +15,23 @@
 namespace tessera::viewer {
 namespace {
 
-/// Heights above the surface, as shares of a light's range: lower ones burn what is below them.
+/// Heights above the surface, as fractions of a light's range: lower lights overexpose what is below them.
 constexpr double kLowest = 0.2;
 constexpr double kHighest = 0.5;
-/// Squares of ranges, as shares of the square of the mean one; their mean is 1.
+/// Squares of ranges, relative to the square of the mean range; their mean is 1.
 constexpr double kLeastSquare = 0.4;
 constexpr double kMostSquare = 1.6;
-/// A light of height h reaches a disc of radius sqrt(range^2 - h^2): its mean share of the disc of the range.
+/// A light at height h reaches a disc of radius sqrt(range^2 - h^2): its mean fraction of the disc of the range.
 constexpr double kReachedShare = 1.0 - (kLowest * kLowest + kLowest * kHighest + kHighest * kHighest) / 3.0;
 /// As a fraction of the distance to the surface above, so that lamps stay below a ceiling.
 constexpr double kClearShare = 0.8;
-/// Of the scene's size: in gaps narrower than that are no lamps.
+/// As a fraction of the scene's size: narrower gaps get no lamps.
 constexpr double kLeastClearShare = 0.01;
 constexpr double kLeastUp = 0.5;   ///< 60 degrees from level: a steep roof still faces up
-constexpr int kMostTries = 16;     ///< for each light
-constexpr int kMeasured = 512;     ///< places where brightness is measured
-constexpr double kHottest = 10.0;  ///< times the mean, below any one light
-constexpr double kBrightest = 2.5; ///< times the mean, of the brightest twentieth of the surfaces
+constexpr int kMostTries = 16;     ///< per light
+constexpr int kMeasured = 512;     ///< positions where illuminance is measured
+constexpr double kHottest = 10.0;  ///< relative to the mean, below any single light
+constexpr double kBrightest = 2.5; ///< relative to the mean, of the brightest twentieth of the surfaces
 
 /// std::mt19937_64 is the same everywhere, the distributions of <random> are not.
 class Numbers {
@@ -43,14 +43,14 @@ private:
     std::mt19937_64 engine_;
 };
 
-/// Where a lamp may hang.
+/// A position for a lamp.
 struct Spot {
     Surfaces::Place place;
     double clearMetres = 0.0;
 };
 
-/// Places above surfaces where lamps hang in a building: above what faces up, and before walls and ceilings that other
-/// surfaces face; not behind walls, below floors or in narrow gaps. Anywhere, where there are no such places.
+/// Positions where lamps hang in a building: above surfaces that face up, and in front of walls and ceilings that other
+/// surfaces face; not behind walls, below floors or in narrow gaps. Any positions if there are none of these.
 std::vector<Spot> spotsIn(const Clearance& clearance, const Surfaces& surfaces, double diagonalMetres, int count,
                           Numbers& numbers, double& areaSquareMetres) {
     std::vector<Spot> spots;
@@ -70,7 +70,7 @@ std::vector<Spot> spotsIn(const Clearance& clearance, const Surfaces& surfaces, 
     return spots;
 }
 
-/// Lux on a surface of point lights of luminous colours, without shadows.
+/// Illuminance in lux from point lights with colours of luminance 1, without shadows.
 double illuminanceAt(const std::vector<scenes::Light>& lights, const Surfaces::Place& place) {
     double sum = 0.0;
     for (const scenes::Light& light : lights) {
@@ -83,8 +83,8 @@ double illuminanceAt(const std::vector<scenes::Light>& lights, const Surfaces::P
     return sum;
 }
 
-/// Scales intensities to a mean illuminance of the surfaces, or less where that would burn a twentieth of them, or the
-/// place below the light that is nearest to a surface, which is `hottestLux` now.
+/// Scales intensities to a mean illuminance of the surfaces; less if that would overexpose a twentieth of them, or the
+/// surface point nearest to a light, whose illuminance is `hottestLux` before scaling.
 void scaleTo(double lux, double hottestLux, std::vector<scenes::Light>& lights, const Surfaces& surfaces,
              Numbers& numbers) {
     std::vector<double> measured(kMeasured);
@@ -103,7 +103,7 @@ void scaleTo(double lux, double hottestLux, std::vector<scenes::Light>& lights, 
 scenes::Light lightOf(int number, double rangeMetres, Numbers& numbers) {
     scenes::Light light;
     light.name = fmt::format("scattered {}", number);
-    // As likely in any step that an eye tells apart: those are even in the reciprocals.
+    // Uniform in the reciprocal temperature, which is perceptually even.
     light.color = lampColor(1.0 / glm::mix(1.0 / kWarmestKelvin, 1.0 / kCoolestKelvin, numbers.unit()));
     light.rangeMetres = float(rangeMetres * std::sqrt(glm::mix(kLeastSquare, kMostSquare, numbers.unit())));
     light.intensity = light.rangeMetres * light.rangeMetres;
@@ -142,7 +142,7 @@ std::vector<scenes::Light> scatterLights(const scenes::Scene& scene, const Scatt
     const std::vector<Spot> spots =
         surfaces.empty() ? std::vector<Spot>()
                          : spotsIn(clearance, surfaces, diagonalMetres, scatter.count, numbers, areaSquareMetres);
-    // So many lights a square metre reach lightsPerPoint of them into the disc of the range.
+    // The range at which lightsPerPoint lights reach each point of the surfaces.
     const double rangeMetres = std::min(diagonalMetres, std::sqrt(scatter.lightsPerPoint * areaSquareMetres /
                                                                   (std::numbers::pi * kReachedShare * scatter.count)));
     double hottestLux = 0.0;
@@ -156,7 +156,7 @@ std::vector<scenes::Light> scatterLights(const scenes::Scene& scene, const Scatt
             const double wantedMetres = double(light.rangeMetres) * glm::mix(kLowest, kHighest, numbers.unit());
             const double metres = std::min(wantedMetres, kClearShare * clearMetres);
             light.positionWS = glm::clamp(place.positionWS + metres * place.normalWS, boundsWS.min, boundsWS.max);
-            // Where it has less room on any side, that side is as bright as from the least height.
+            // If a side has less clearance than the least height, it becomes as bright as from that height.
             const double roomMetres = kLowest * double(light.rangeMetres);
             const double nearMetres = clearance.metresAround(light.positionWS, roomMetres).value_or(roomMetres);
             light.intensity *= float(nearMetres * nearMetres / (roomMetres * roomMetres));

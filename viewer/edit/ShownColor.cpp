@@ -26,7 +26,7 @@ glm::vec3 swatchOfColor(const glm::vec3& linear) {
 
 glm::vec3 colorOfCode(const glm::vec3& code, const glm::vec3& codeBefore, const glm::vec3& linearBefore, float scale) {
     const auto byteOf = [](float value) { return std::lround(255.0f * value); };
-    // A picker's fields of numbers and digits round all channels to bytes, whichever was edited.
+    // The number and hexadecimal fields of a picker round all channels to bytes, whichever was edited.
     const auto isSame = [&](float value, float before) {
         return value == before || value == float(byteOf(before)) / 255.0f;
     };

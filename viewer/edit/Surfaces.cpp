@@ -8,7 +8,7 @@ namespace tessera::viewer {
 Surfaces::Surfaces(const scenes::Scene& scene) {
     const std::vector<glm::dmat4> worldFromNode = scenes::worldFromNodes(scene);
     for (std::size_t n = 0; n < scene.nodes.size(); ++n) {
-        // A transform that mirrors turns a front into the other order of corners.
+        // A mirroring transform reverses the winding of front faces.
         const bool mirrors = glm::determinant(glm::dmat3(worldFromNode[n])) < 0.0;
         for (const scenes::MeshInstance& instance : scene.nodes[n].instances) {
             const scenes::Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];

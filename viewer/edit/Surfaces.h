@@ -5,7 +5,7 @@
 
 namespace tessera::viewer {
 
-/// Places on the surfaces of a scene, as likely on any square metre as on any other.
+/// Uniformly distributed points on the surfaces of a scene.
 class Surfaces {
 public:
     explicit Surfaces(const scenes::Scene& scene);
@@ -17,7 +17,7 @@ public:
         glm::dvec3 positionWS;
         glm::dvec3 normalWS; ///< of the triangle's front
     };
-    /// The place that three numbers from 0 to 1 choose.
+    /// The point for three uniform numbers from 0 to 1.
     Place at(double triangle, double u, double v) const;
 
 private:
@@ -25,7 +25,7 @@ private:
         glm::dvec3 cornerWS, firstEdge, secondEdge;
     };
     std::vector<Triangle> triangles_;
-    std::vector<double> areaSums_; ///< of the triangles up to each
+    std::vector<double> areaSums_; ///< prefix sums over the triangles
 };
 
 } // namespace tessera::viewer

@@ -36,7 +36,7 @@ Thumbnail thumbnailOf(const scenes::Image& image, int mostPixels) {
     if (size.x < 1 || size.y < 1 || image.texels.empty()) return small;
     const double share = std::min(1.0, double(mostPixels) / std::max(size.x, size.y));
     small.sizePixels = glm::max(glm::ivec2(glm::round(share * glm::dvec2(size))), glm::ivec2(1));
-    constexpr int kMostSamples = 4; // a side of a pixel: large pictures are not read whole
+    constexpr int kMostSamples = 4; // per side of a pixel: large images are not read completely
     const glm::dvec2 step = glm::dvec2(size) / glm::dvec2(small.sizePixels);
     const glm::ivec2 samples = glm::clamp(glm::ivec2(glm::ceil(step)), 1, kMostSamples);
     for (int y = 0; y < small.sizePixels.y; ++y)

@@ -15,7 +15,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// As --clip takes a clip: by its name, else by its number.
+/// The name of a clip as given to --clip: its name, else its number.
 std::string calledBy(const scenes::Rig& rig, std::size_t clip) {
     return rig.clips[clip].name.empty() ? fmt::format("{}", clip) : rig.clips[clip].name;
 }
@@ -27,7 +27,7 @@ void clipRow(State& state) {
     std::unordered_set<std::string> known(names.begin(), names.end()); // there may be thousands
     for (std::size_t i = 0; i < rig.clips.size(); ++i)
         if (std::string name = calledBy(rig, i); known.insert(name).second)
-            names.push_back(std::move(name)); // all clips of a name play together
+            names.push_back(std::move(name)); // clips of the same name play together
     std::vector<std::string> playing;
     for (const int clip : rig.playing) playing.push_back(calledBy(rig, std::size_t(clip)));
     const std::string shown = playing.empty() ? names.front() : fmt::format("{}", fmt::join(playing, ", "));
@@ -37,7 +37,7 @@ void clipRow(State& state) {
     if (const auto chosen = choose("Clip", shown, names.size(), choiceAt, now)) state.requests.clip = names[*chosen];
 }
 
-/// A clip's time is chosen within it; without one there is no end.
+/// The time slider of a clip ends with it; without a clip the time is unbounded.
 void timeRow(State& state) {
     const double clipSeconds = state.open->clipSeconds();
     const bool isBounded = clipSeconds > 0.0;

@@ -28,7 +28,7 @@ void axisRow(OpenScene& open) {
 }
 
 void numberRows(OpenScene& open) {
-    constexpr float kSpeedShare = 0.002f; // of the focus, a pixel of a drag
+    constexpr float kSpeedShare = 0.002f; // of the focus distance, per pixel of a drag
     constexpr float kLeastDegrees = 1.0f, kMostDegrees = 170.0f;
     const CameraPose pose = open.rig().pose();
     const float speed = kSpeedShare * float(pose.focusMetres);
@@ -41,13 +41,13 @@ void numberRows(OpenScene& open) {
     if (open.rig().start().projection != scenes::Projection::Perspective) return;
     auto radians = float(open.rig().start().fovYRadians);
     if (angleSlider("Field of view", radians, kLeastDegrees, kMostDegrees)) {
-        constexpr double kStepsADegree = 10.0; // as it is shown
+        constexpr double kStepsADegree = 10.0; // precision of the display
         open.changeFieldOfView(std::round(kStepsADegree * glm::degrees(double(radians))) / kStepsADegree,
                                widgetGesture());
     }
 }
 
-/// Those that were stored, each with a button that removes it.
+/// The stored viewpoints, each with a button that removes it.
 void viewpointRows(State& state) {
     OpenScene& open = *state.open;
     row("Viewpoints");

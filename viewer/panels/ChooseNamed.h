@@ -4,7 +4,7 @@
 
 namespace tessera::viewer {
 
-/// A row that sets one of the choices of Scene.h, by the names that scene files have for them. Whether it did.
+/// A row that sets an enum of Scene.h, by its names in scene files. Returns whether it did.
 template <typename Enum, typename Possible>
 bool chooseNamed(const char* label, Enum& value, const Possible& isPossible) {
     const auto table = scenes::scenejson::choicesOf(value);

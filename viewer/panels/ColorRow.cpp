@@ -13,10 +13,10 @@ namespace {
 
 constexpr float kPickerEm = 16.0f;
 constexpr const char* kPicker = "picker";
-constexpr const char* kPickerScale = "picker scale"; ///< in the window's storage
+constexpr const char* kPickerScale = "picker scale"; ///< key in the window's storage
 
-/// The picker's whole brightness is what the colour had when it was opened: were it that of the colour as it is edited,
-/// whoever makes it darker would never get anywhere.
+/// The picker's full brightness is that of the colour when it was opened. If it followed the edited colour, darkening
+/// would never end.
 float heldScale(const glm::vec3& color) {
     float& scale = *ImGui::GetStateStorage()->GetFloatRef(ImGui::GetID(kPickerScale), 1.0f);
     return scale = std::max(scale, swatchScale(color));
@@ -41,7 +41,7 @@ void colorSwatch(const glm::vec3& linear, float sidePixels) {
 }
 
 bool colorRow(const char* label, glm::vec3& color, float most) {
-    constexpr float kSpeed = 0.004f; // of the channels, a pixel of a drag
+    constexpr float kSpeed = 0.004f; // of the channels, per pixel of a drag
     row(label);
     ImGui::PushID(label);
     const float side = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;

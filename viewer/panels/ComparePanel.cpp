@@ -36,7 +36,7 @@ std::string figure(double value) {
     return std::isnan(value) ? "-" : fmt::format("{:.3g}", value);
 }
 
-/// A click goes to the pixel that differs most.
+/// A click inspects the pixel with the largest error.
 void worstRow(State& state, const validation::ErrorFigures& figures, glm::ivec2 sizePixels) {
     fact("max rel", fmt::format("{} at {}, {}", figure(figures.maxRel), figures.worstX, figures.worstY));
     if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

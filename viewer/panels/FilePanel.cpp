@@ -1,4 +1,4 @@
-// The dialog about files: the list of a folder, and the field of a path, which keeps the keyboard.
+// The file dialog: the entries of a folder, and the field of a path, which keeps the keyboard.
 #include <algorithm>
 #include <array>
 #include <cfloat>
@@ -18,11 +18,11 @@ namespace {
 
 using Purpose = FileDialog::Purpose;
 
-constexpr std::size_t kLongestPath = 4096;            ///< bytes, the most that Linux takes
-constexpr std::size_t kFieldBytes = 3 * kLongestPath; ///< FieldLetters makes three of one
-constexpr std::size_t kShownBytes = 200;              ///< of a path or a fault: three lines of the dialog at most
+constexpr std::size_t kLongestPath = 4096;            ///< bytes, the limit of Linux
+constexpr std::size_t kFieldBytes = 3 * kLongestPath; ///< FieldLetters may triple them
+constexpr std::size_t kShownBytes = 200;              ///< of a path or an error: at most three lines of the dialog
 
-/// The end of a long text, which says more of a path than its beginning.
+/// The end of a long text, which is more specific than the beginning of a path.
 std::string endOf(const std::string& text) {
     const std::string line = oneLine(text, text.max_size());
     if (line.size() <= kShownBytes) return line;
@@ -31,7 +31,7 @@ std::string endOf(const std::string& text) {
     return "... " + line.substr(begin);
 }
 
-/// Up, Down and Tab in the field.
+/// Handles Up, Down and Tab in the field.
 int heedKey(ImGuiInputTextCallbackData* data) {
     FileDialog& dialog = *static_cast<FileDialog*>(data->UserData);
     dialog.typeInField({data->Buf, std::size_t(data->BufTextLen)});
@@ -47,7 +47,7 @@ int heedKey(ImGuiInputTextCallbackData* data) {
     return 0;
 }
 
-/// Ends the dialog with a file, where one is meant.
+/// Closes the dialog with the accepted file, if there is one.
 void accept(State& state, bool replaces) {
     const std::optional<std::string> file = state.files->accept(replaces);
     if (!file) return;
@@ -65,7 +65,7 @@ void placeButton(const char* label, const std::optional<std::filesystem::path>& 
     if (isPressed) dialog.goTo(*folder);
 }
 
-/// Where to look: folders that one is likely to want.
+/// Buttons for likely folders.
 void placeRow(const State& state, FileDialog& dialog) {
     std::optional<std::filesystem::path> above;
     if (dialog.folder() && dialog.folder()->has_relative_path()) above = dialog.folder()->parent_path();
@@ -95,7 +95,7 @@ void placeRow(const State& state, FileDialog& dialog) {
     ImGui::EndCombo();
 }
 
-/// A click chooses, a double click accepts. Whether it did.
+/// The entries: a click chooses, a double click accepts. Returns whether one was accepted.
 bool entryRows(FileDialog& dialog, float height) {
     if (!ImGui::BeginChild("list", {0.0f, height}, true)) {
         ImGui::EndChild();
@@ -120,7 +120,7 @@ bool entryRows(FileDialog& dialog, float height) {
                 isAccepted = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
             }
             tip(entry.meaning);
-            if (!entry.meaning.empty()) { // as far as there is room
+            if (!entry.meaning.empty()) { // as far as it fits
                 constexpr float kNameEms = 11.0f;
                 ImGui::SameLine(kNameEms * ImGui::GetFontSize());
                 ImGui::TextDisabled("%s", entry.meaning.c_str());
@@ -132,11 +132,11 @@ bool entryRows(FileDialog& dialog, float height) {
     if (entries.empty() && dialog.fault().empty())
         ImGui::TextDisabled("Nothing here that can be %s", dialog.purpose() == Purpose::Open ? "opened" : "replaced");
     ImGui::EndChild();
-    if (clicked) dialog.choose(*clicked); // after the rows: it may make others
+    if (clicked) dialog.choose(*clicked); // after the rows, which it may replace
     return isAccepted;
 }
 
-/// The field of the path. Whether Enter was pressed in it.
+/// The field of the path. Returns whether Enter was pressed in it.
 bool pathField(FileDialog& dialog) {
     std::array<char, kFieldBytes> buffer{};
     const std::string text = dialog.inField();
@@ -156,7 +156,7 @@ bool pathField(FileDialog& dialog) {
     return isEntered;
 }
 
-/// Opens or saves what is meant; a file that is there is replaced by a button of its own.
+/// Buttons that open or save the chosen file; replacing an existing file has its own button.
 void answerButtons(State& state, bool isEntered) {
     FileDialog& dialog = *state.files;
     const bool asksToReplace = dialog.asksToReplace();

@@ -27,18 +27,18 @@ constexpr float kStatusHeight = 22.0f;
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                    ImGuiWindowFlags_NoFocusOnAppearing; // which would let go what the user holds
+                                    ImGuiWindowFlags_NoFocusOnAppearing; // which would interrupt a drag
 
 float panelWidth(const State& state, float scale) {
     return state.showsPanel ? state.panelWidth * scale : 0.0f;
 }
 
-/// A part of the panels.
+/// A section of the panels.
 struct Section {
     const char* title;
-    bool isOpen; ///< until the user opens or folds it
+    bool isOpen; ///< initially
     void (*show)(State&, const Facts&);
-    std::optional<Selected> selected = {}; ///< whose selection brings it into view
+    std::optional<Selected> selected = {}; ///< selection that scrolls it into view
     bool (*isThere)(const State&) = [](const State& state) { return state.open != nullptr; };
 };
 
@@ -46,8 +46,8 @@ bool hasMovement(const State& state) {
     return state.open && (canMove(state) || !state.open->scene().rig.clips.empty());
 }
 
-/// From the top: what a scene holds, how it is seen, then what those want who study techniques. Until a scene is there
-/// nobody knows how its picture begins.
+/// From the top: the scene's contents, how it is viewed, then details of techniques. Most sections need an open scene,
+/// which determines the initial settings.
 constexpr Section kSections[] = {
     {"Scene", true, scenePanel, {}, [](const State&) { return true; }},
     {"Lights", false, [](State& state, const Facts&) { lightsPanel(state); }, Selected::Light},
@@ -71,7 +71,7 @@ void showSection(State& state, const Facts& facts, const Section& section) {
     const bool wasOpen = known != state.sections.end() ? known->second : section.isOpen;
     const bool isRevealed = section.selected && state.reveals == section.selected;
     ImGui::SetNextItemOpen(wasOpen || isRevealed);
-    // Borders are for what takes input, and the colour of what is selected for rows of lists.
+    // Borders mark widgets for input, and the selection colour is for rows of lists.
     ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 0.0f);
     ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_Tab));
     ImGui::PushStyleColor(ImGuiCol_HeaderHovered, ImGui::GetStyleColorVec4(ImGuiCol_TabHovered));
@@ -91,7 +91,7 @@ void showSection(State& state, const Facts& facts, const Section& section) {
     section.show(state, facts);
     ImGui::PopID();
     ImGui::Spacing();
-    // What was opened comes into view, its bar at least.
+    // Scrolls an opened section into view, at least its title.
     const float endY = ImGui::GetCursorPosY(), heightY = ImGui::GetWindowHeight();
     if (isChanged && !isRevealed && endY - ImGui::GetScrollY() > heightY)
         endY - topY < heightY ? ImGui::SetScrollFromPosY(endY - ImGui::GetScrollY(), 1.0f)
@@ -115,7 +115,7 @@ void sidePanel(State& state, const Facts& facts, float height, float scale) {
     ImGui::End();
 }
 
-/// A line where the panels' edge can be dragged.
+/// Highlights the panels' edge where it can be dragged.
 void drawPanelEdge(const State& state, const PictureArea& area, float scale) {
     const ImGuiIO& io = ImGui::GetIO();
     const bool isPointed =
@@ -127,7 +127,7 @@ void drawPanelEdge(const State& state, const PictureArea& area, float scale) {
     ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }
 
-/// What the status line says, the more important things first.
+/// Parts of the status line, the most important first.
 std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     std::vector<std::string> parts;
     if (!state.loading.empty())
@@ -139,12 +139,12 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     if (facts.isCancelled) parts.emplace_back("cancelled (Enter: draw on)");
     if (state.open && state.open->rig().mode() == CameraRig::Mode::Fly)
         parts.push_back(fmt::format("flying, {:.3g} m/s (C: orbit)", state.open->rig().flyMetresPerSecond()));
-    // The sides of a comparison are named in the picture; two names leave no room here.
+    // The sides of a comparison are named in the image; two names would not fit here.
     const std::optional<Look>& left = facts.shown[0];
     if (state.compare == Compare::Off && left)
         parts.push_back(lookName(*left, state.open ? &state.open->scene().lights : nullptr));
     if (facts.scale > 0.0) {
-        double ms = 0.0; // of the sides in the window
+        double ms = 0.0; // of the displayed sides
         for (int side = 0; side < state.sides(); ++side)
             if (const FrameTimes* const latest = state.timings.latest(side)) ms += latest->ms;
         parts.push_back(pictureTimeText(ms));
@@ -155,7 +155,7 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     return parts;
 }
 
-/// A small button that undoes or redoes, and names what.
+/// A small button that undoes or redoes; its tooltip describes the edit.
 void historyButton(const char* label, const char* keys, const std::string* what, State& state, void (*act)(State&)) {
     const std::string meaning = what != nullptr ? fmt::format("{}: {} ({})", label, *what, keys) : "";
     ImGui::BeginDisabled(what == nullptr);
@@ -200,7 +200,7 @@ void statusLine(State& state, const Facts& facts, const PictureArea& area, float
     ImGui::PopStyleVar(2);
 }
 
-/// The fault, and folded, since a program has up to some sixty defines, which programs have it.
+/// A shader error, and the folded list of its programs, which have up to some sixty defines each.
 void faultRows(const ShownFault& fault) {
     errorParagraph(fault.text);
     if (fault.programs.empty()) return;
@@ -213,7 +213,7 @@ void faultRows(const ShownFault& fault) {
     ImGui::PopID();
 }
 
-/// What went wrong, or was done, at the picture's lower edge.
+/// Errors and messages at the image's lower edge.
 void notices(State& state, const PictureArea& area, float scale) {
     if (state.notice.text.empty() && state.shaderFaults.empty()) return;
     const float margin = 12.0f * scale;
@@ -230,7 +230,7 @@ void notices(State& state, const PictureArea& area, float scale) {
             errorParagraph(state.notice.text);
         } else if (!state.notice.text.empty()) {
             paragraph(state.notice.text);
-            // Errors stay until Esc: a click may be a mistake.
+            // Errors stay until Esc: a click may be accidental.
             if (ImGui::IsWindowHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) state.notice = {};
         }
     }
@@ -260,17 +260,17 @@ std::string pictureTimeText(double ms) {
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale) {
     const float height = ImGui::GetIO().DisplaySize.y;
     state.loupes.clear();
-    state.wantsPlan = state.wantsThumbnails = state.showsMaterial = false; // unless a panel that is seen says so
+    state.wantsPlan = state.wantsThumbnails = state.showsMaterial = false; // set again by panels that are visible
     if (state.showsPanel) sidePanel(state, facts, height, scale);
     if (area.size.x > 0.0f) {
         statusLine(state, facts, area, scale);
         drawMaterialOutline(state, facts, area);
         drawMarkers(state, area, scale);
         drawHandles(state, area);
-        drawDivider(state, area, scale); // which is taken before a handle
+        drawDivider(state, area, scale); // above handles, because it is grabbed first
         drawLegend(state, facts, area, scale);
         drawNames(state, facts, area, scale);
-        drawPins(state, area); // whose markers lie below the inspector
+        drawPins(state, area); // below the inspector
         drawInspector(state, facts, area);
         drawResource(state, facts, area);
         drawDragText(state, area);
@@ -281,7 +281,7 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
     if (state.showsHelp) helpOverlay(state, scale);
     fileDialog(state, scale);
     questionDialog(state, scale);
-    // What is dragged is let go: the next edit is a step of its own.
+    // Nothing is being dragged: the next edit is a separate step.
     if (state.open && !state.isDragging && !ImGui::IsAnyItemActive()) state.open->endGesture();
 }
 

@@ -6,16 +6,16 @@
 
 namespace tessera::viewer {
 
-/// Where the picture is in a window of this size, screen coordinates; of no size where there is no room.
+/// The viewport in a window of this size, in screen coordinates; of size 0 if there is no room.
 PictureArea pictureArea(const State& state, glm::vec2 windowSize, float scale);
 
-/// The window that leaves a picture of this size beside panels of a width, 0 where they are hidden.
+/// The window size that leaves an image of this size beside panels of a width, 0 if hidden.
 glm::ivec2 windowSizeFor(glm::ivec2 pictureSize, float panelWidth);
 
-/// How long a picture took, as the line below it says: "54 ms", and from 10 s on "176 s".
+/// Drawing time of an image for the status line: "54 ms", and from 10 s on "176 s".
 std::string pictureTimeText(double ms);
 
-/// All panels around the picture, the line below it, and its overlays.
+/// Draws all panels, the status line and the overlays.
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale);
 
 } // namespace tessera::viewer

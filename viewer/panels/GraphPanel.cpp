@@ -10,7 +10,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Name of a resource; a click shows its contents.
+/// The name of a resource; a click shows its contents.
 void link(State& state, const graph::Plan& plan, const std::string& name) {
     const bool isShown = state.resource.name == name;
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
@@ -20,7 +20,7 @@ void link(State& state, const graph::Plan& plan, const std::string& name) {
     if (!isClicked) return;
     state.resource.show(isShown ? std::string() : name);
     const auto resource = std::ranges::find(plan.resources, name, &graph::Plan::Resource::name);
-    // Radiance covers many magnitudes.
+    // Radiance spans many orders of magnitude.
     state.resource.isCurved =
         resource != plan.resources.end() && (resource->format == "RGBA32F" || resource->format == "RGBA16F");
 }
@@ -60,7 +60,7 @@ void resourceRows(State& state, const graph::Plan& plan, const graph::Plan::Reso
     ImGui::Unindent(2.0f * ImGui::GetFontSize());
 }
 
-/// Textures first, which more people look at.
+/// Textures first: they are inspected more often.
 void resources(State& state, const graph::Plan& plan) {
     for (const bool areTextures : {true, false})
         for (const graph::Plan::Resource& resource : plan.resources)

@@ -13,13 +13,13 @@ namespace tessera::viewer {
 namespace {
 
 constexpr ImU32 kFigureInk = IM_COL32(140, 195, 255, 230), kHeldInk = IM_COL32(255, 205, 60, 255);
-constexpr ImU32 kUnderInk = IM_COL32(20, 20, 24, 160);    ///< so that lines are seen on white too
-constexpr ImU32 kRangeInk = IM_COL32(140, 195, 255, 110); ///< of how far lights shine, and of others that are selected
-/// Of the arms along x, y and z.
+constexpr ImU32 kUnderInk = IM_COL32(20, 20, 24, 160);    ///< keeps lines visible on white
+constexpr ImU32 kRangeInk = IM_COL32(140, 195, 255, 110); ///< of ranges, and of other selected lights
+/// Of the move arms along x, y and z.
 constexpr ImU32 kArmInks[] = {IM_COL32(240, 80, 75, 255), IM_COL32(95, 205, 75, 255), IM_COL32(65, 110, 255, 255)};
 constexpr float kHandleRadius = 4.5f, kLineWidth = 1.5f, kUnderWidth = 3.5f;
 
-/// Before, Dear ImGui shows slanting arrows as the plain one, which says nothing.
+/// Earlier versions lack slanting arrows, and Dear ImGui then shows the plain one, without a direction.
 constexpr bool kHasSlantingArrows = GLFW_VERSION_MAJOR > 3 || (GLFW_VERSION_MAJOR == 3 && GLFW_VERSION_MINOR >= 4);
 
 ImGuiMouseCursor cursorOf(PointerShape shape) {
@@ -38,7 +38,7 @@ ImGuiMouseCursor cursorOf(PointerShape shape) {
     return ImGuiMouseCursor_Hand;
 }
 
-/// Draws at places of a picture, and nothing beside it.
+/// Draws at image positions, clipped to the image.
 class PictureInk {
 public:
     explicit PictureInk(const PictureArea& area) : area_(area), list_(*ImGui::GetBackgroundDrawList()) {
@@ -56,10 +56,10 @@ public:
         list_.AddLine(at(from), at(to), kUnderInk, kUnderWidth * area_.scale);
         list_.AddLine(at(from), at(to), kFigureInk, kLineWidth * area_.scale);
     }
-    /// First of all, so that none lies on another's ink.
+    /// Drawn for all contours first, so that none covers another's ink.
     void underContour(const std::vector<ImVec2>& points) { contour(points, kUnderInk, kUnderWidth); }
     void inkContour(const std::vector<ImVec2>& points) { contour(points, kFigureInk, kLineWidth); }
-    /// Square, or round where it turns the light.
+    /// A square, or a circle for the light's direction.
     void handle(const LightHandle& handle, bool isPointed) {
         const ImVec2 place = at(handle.place);
         const auto fill = [&](float radius, ImU32 ink) {
@@ -71,14 +71,14 @@ public:
         fill((kHandleRadius + 1.0f) * area_.scale, kUnderInk);
         fill(kHandleRadius * area_.scale, isPointed ? kHeldInk : kFigureInk);
     }
-    /// Of an arm, from the marker on.
+    /// An arm, beginning outside the marker.
     void arm(const glm::dvec2& middle, const LightHandle& handle, bool isPointed) {
         constexpr double kMarkerRadius = 12.0, kHeadLength = 6.0, kHeadHalfWidth = 5.0;
         const ImU32 ink = kArmInks[handle.arm];
         const glm::dvec2 from = middle + kMarkerRadius * double(area_.scale) * handle.way;
         list_.AddLine(at(from), at(handle.place), kUnderInk, kUnderWidth * area_.scale);
         list_.AddLine(at(from), at(handle.place), ink, kLineWidth * area_.scale);
-        const auto head = [&](double grown, ImU32 headInk) { // clockwise, or its rim is not smooth
+        const auto head = [&](double grown, ImU32 headInk) { // clockwise, as antialiasing requires
             const double scale = double(area_.scale);
             const glm::dvec2 along = (kHeadLength + grown) * scale * handle.way;
             const glm::dvec2 across = (kHeadHalfWidth + grown) * scale * glm::dvec2(-handle.way.y, handle.way.x);
@@ -113,7 +113,7 @@ private:
     ImDrawList& list_;
 };
 
-/// The handle that is held, else the one that a press would take.
+/// The handle that is held, else the one that a press would grab.
 std::optional<LightHandle> pointedHandle(const State& state, const PictureArea& area, const LightFigure& figure) {
     if (state.heldHandle) {
         const auto held = std::ranges::find(figure.handles, *state.heldHandle, &LightHandle::number);
@@ -125,7 +125,7 @@ std::optional<LightHandle> pointedHandle(const State& state, const PictureArea& 
     return handleUnder(state, area, pointer);
 }
 
-/// Inside the picture, also where the pointer has left it.
+/// Clamped to the image, even if the pointer has left it.
 void drawBesidePointer(const std::string& text, const PictureArea& area) {
     const float pad = 5.0f * area.scale, beside = 16.0f * area.scale;
     const ImVec2 size = ImGui::CalcTextSize(text.c_str()), pointer = ImGui::GetIO().MousePos;
@@ -162,7 +162,7 @@ void drawHandles(const State& state, const PictureArea& area) {
     if (figure->sun) ink.sun(*figure->sun);
     const std::optional<LightHandle> pointed = pointedHandle(state, area, *figure);
     const auto isPointed = [&](const LightHandle& handle) { return pointed && pointed->number == handle.number; };
-    if (const auto middle = view.placeOf(figure->middleWS)) // under the others, which an arm may pass
+    if (const auto middle = view.placeOf(figure->middleWS)) // below the others, which an arm may cross
         for (const LightHandle& handle : figure->handles)
             if (handle.moves()) ink.arm(*middle, handle, isPointed(handle));
     for (const LightHandle& handle : figure->handles)
@@ -189,7 +189,7 @@ void drawMaterialOutline(const State& state, const Facts& facts, const PictureAr
 
 void drawDragText(const State& state, const PictureArea& area) {
     if (state.dragText.empty()) return;
-    if (!state.heldHandle) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW); // the environment turns
+    if (!state.heldHandle) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW); // the environment is being rotated
     drawBesidePointer(state.dragText, area);
 }
 

@@ -5,14 +5,14 @@
 
 namespace tessera::viewer {
 
-/// Shows over the picture the selected light's outline and its handles; the pointer's shape says what a press does, at
-/// arms words beside it, too.
+/// Draws the selected light's outline and handles over the image. The pointer's shape shows what a press does; arms
+/// also have a text beside it.
 void drawHandles(const State& state, const PictureArea& area);
 
-/// The outline of what has the selected material, where it is known and a panel shows the material.
+/// Draws the outline of the selected material, if it is known and a panel shows the material.
 void drawMaterialOutline(const State& state, const Facts& facts, const PictureArea& area);
 
-/// Beside the pointer, what a drag sets.
+/// Draws the value that a drag sets, beside the pointer.
 void drawDragText(const State& state, const PictureArea& area);
 
 } // namespace tessera::viewer

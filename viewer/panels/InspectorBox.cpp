@@ -14,7 +14,7 @@ namespace {
 constexpr ImU32 kBoxInk = IM_COL32(220, 222, 228, 255), kBoxBehind = IM_COL32(20, 21, 24, 225);
 constexpr float kTexelPoints = 8.0f, kBoxPad = 6.0f, kBesidePoints = 24.0f;
 
-/// Where a box beside a point begins: behind it, or before it where there is no room behind; inside the picture.
+/// Start of a box beside a point: after it, or before it if there is no room after it; inside the image.
 float besidePoint(float point, float size, float begin, float end, float beside) {
     const float behind = point + beside, before = point - beside - size;
     const float wished = behind + size <= end || before < begin ? behind : before;
@@ -49,7 +49,7 @@ void drawInspector(State& state, const Facts& facts, const PictureArea& area) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.PushClipRect({area.corner.x, area.corner.y}, {end.x, end.y});
     if (state.pinnedPlace) outline(list, point - 0.75f * texel, 1.5f * texel, area.scale);
-    // The loupes are drawn below the interface: the box goes around them.
+    // The loupes are drawn below the interface, so the box leaves them free.
     const glm::vec2 first = corner + pad, words = first + glm::vec2(0.0f, loupe + pad);
     const float rounding = ImGui::GetStyle().FrameRounding;
     list.AddRectFilled({corner.x, corner.y}, {corner.x + size.x, first.y}, kBoxBehind, rounding,

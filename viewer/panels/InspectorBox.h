@@ -4,11 +4,11 @@
 
 namespace tessera::viewer {
 
-/// What the picture shows at the inspected pixel, in words beside it, and where the loupes are to be drawn
-/// (added to State::loupes); State::inspectorBox. Nothing where nothing is inspected, or the picture has no room.
+/// Draws the values of the inspected pixel beside it, adds loupes to State::loupes, and sets State::inspectorBox. Draws
+/// nothing without an inspected pixel, or without room in the image.
 void drawInspector(State& state, const Facts& facts, const PictureArea& area);
 
-/// The pixels that are pinned, in the picture, and a window of what was told of them.
+/// Draws the pinned pixels in the image, and a window with their values.
 void drawPins(State& state, const PictureArea& area);
 
 } // namespace tessera::viewer

@@ -27,7 +27,7 @@ const char* titleOf(frame::DebugView view) {
     return view == frame::DebugView::Overdraw ? "Surfaces a pixel shades" : "Lights a pixel visits";
 }
 
-/// A titled bar of heat colours, up to the largest count where that is known, else to the end of the colours' scale.
+/// A titled bar of heat colours, up to the largest count if it is known, else to the end of the colour scale.
 void drawBar(const PictureArea& area, frame::DebugView view, std::optional<float> most, float log2Colours,
              float scale) {
     constexpr int kSteps = 48;
@@ -36,7 +36,7 @@ void drawBar(const PictureArea& area, frame::DebugView view, std::optional<float
     const float pad = 8.0f * scale, line = ImGui::GetFontSize(), barWidth = 14.0f * scale;
     const float height = std::min(14.0f * line, area.size.y - 5.0f * pad - 2.0f * line);
     const float titleWidth = ImGui::CalcTextSize(title).x;
-    if (height < 8.0f * line || area.size.x < titleWidth + 5.0f * pad) return; // no room to read it
+    if (height < 8.0f * line || area.size.x < titleWidth + 5.0f * pad) return; // too small to read
     const ImVec2 end(area.corner.x + area.size.x - 2.0f * pad, area.corner.y + area.size.y - 2.0f * pad);
     const float barX = end.x - barWidth, top = end.y - height, titleY = top - pad - 1.5f * line;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -55,7 +55,7 @@ void drawBar(const PictureArea& area, frame::DebugView view, std::optional<float
         list.AddText({x, y - 0.5f * line}, kInk, text.c_str());
         list.AddLine({barX - 0.5f * pad, y}, {barX, y}, kInk);
     };
-    // Clear of one another, and of the largest where that has a label.
+    // Labels keep clear of one another, and of the largest count's label if it has one.
     const float apart = line / height;
     const float endOfSteps = most ? 1.0f - apart : 1.0f;
     label(0.0f);
@@ -63,14 +63,14 @@ void drawBar(const PictureArea& area, frame::DebugView view, std::optional<float
     if (most && *most >= 1.0f) label(*most);
 }
 
-/// Colours with their meanings, below one another.
+/// Colours with their meanings, one below the other.
 void drawSwatches(const PictureArea& area, std::span<const validation::Swatch> swatches, float scale) {
     const float pad = 8.0f * scale, line = ImGui::GetTextLineHeightWithSpacing(), side = ImGui::GetFontSize();
     float width = 0.0f;
     for (const validation::Swatch& swatch : swatches)
         width = std::max(width, ImGui::CalcTextSize(swatch.meaning.c_str()).x);
     const ImVec2 size(width + side + 3.0f * pad, float(swatches.size()) * line + 1.5f * pad);
-    if (area.size.x < size.x + 2.0f * pad || area.size.y < size.y + 2.0f * pad) return; // no room to read it
+    if (area.size.x < size.x + 2.0f * pad || area.size.y < size.y + 2.0f * pad) return; // too small to read
     const ImVec2 end(area.corner.x + area.size.x - pad, area.corner.y + area.size.y - pad);
     const ImVec2 corner(end.x - size.x, end.y - size.y);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -85,19 +85,19 @@ void drawSwatches(const PictureArea& area, std::span<const validation::Swatch> s
     }
 }
 
-/// Words in the lower left corner.
+/// Text in the lower left corner.
 void drawCaption(const PictureArea& area, const std::string& text, float scale) {
     const float pad = 8.0f * scale;
     const ImVec2 words = ImGui::CalcTextSize(text.c_str());
     const ImVec2 corner(area.corner.x + pad, area.corner.y + area.size.y - 2.0f * pad - words.y);
-    if (text.empty() || area.size.x < words.x + 4.0f * pad) return; // no room to read it
+    if (text.empty() || area.size.x < words.x + 4.0f * pad) return; // too small to read
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddRectFilled(corner, {corner.x + words.x + 2.0f * pad, corner.y + words.y + pad}, kBehind,
                        ImGui::GetStyle().FrameRounding);
     list.AddText({corner.x + pad, corner.y + 0.5f * pad}, kInk, text.c_str());
 }
 
-/// Of views that show the shadow of one light.
+/// Caption of views that show the shadow of one light.
 std::string shownLightText(const engine::DrawnShadows& shadows, const std::vector<scenes::Light>& lights) {
     const std::size_t index = std::size_t(shadows.lights[*shadows.shown].sceneIndex);
     if (index >= lights.size()) return ""; // deleted since

@@ -5,8 +5,8 @@
 
 namespace tessera::viewer {
 
-/// The scale of each picture that shows counts (lights or surfaces a pixel), or the colours of shadow maps, at its
-/// lower right: beside the divider where it is the left one.
+/// Draws the scale of each image of counts (lights or surfaces per pixel), or the colours of shadow maps, at its lower
+/// right: for the left image beside the divider.
 void drawLegend(const State& state, const Facts& facts, const PictureArea& area, float scale);
 
 } // namespace tessera::viewer

@@ -18,12 +18,12 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kFirstWayShare = 0.05; ///< of the scene's size: how far a light goes that begins to move
-constexpr float kStepShare = 0.001f;    ///< the same: a pixel of a drag of a place
+constexpr double kFirstWayShare = 0.05; ///< of the scene's size: extent of the path of a light that begins to move
+constexpr float kStepShare = 0.001f;    ///< of the scene's size: per pixel of a drag of a position
 constexpr float kSecondsPerPixel = 0.02f;
 constexpr const char* kValue = "##value";
 
-/// What is left of a row beside buttons at its end.
+/// Width of a row that is left beside buttons at its end.
 float widthBeside(int buttons) {
     const float button = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x;
     return ImGui::GetContentRegionAvail().x - float(buttons) * button;
@@ -57,7 +57,7 @@ bool keyValue(const scenes::LightKeyedInfo& member, glm::dvec3& value, double sc
     return false;
 }
 
-/// The time of a key, its value and a button that takes it away, which `removed` then names.
+/// The time of a key, its value and a button that removes it, which sets `removed`.
 bool keyRow(scenes::Light& light, const scenes::LightKeyedInfo& member, std::size_t key, double sceneSizeMetres,
             std::optional<std::size_t>& removed) {
     bool changed = false;
@@ -120,7 +120,7 @@ bool keyRows(scenes::Light& light, const scenes::LightKeyedInfo& member, double 
     return changed;
 }
 
-// ---- Ways ----------------------------------------------------------------------------------------------------------
+// ---- Paths ---------------------------------------------------------------------------------------------------------
 
 bool pointRows(scenes::Light& light, double sceneSizeMetres) {
     bool changed = false;
@@ -202,7 +202,7 @@ bool wayRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres) {
         changed |= pathRows(light, sceneSizeMetres);
         break;
     case scenes::LightAnimationKind::Keyframes:
-        return changed; // are below, with those of other members
+        return changed; // shown below, with the keys of other members
     }
     return periodRows(*light.animation) || changed;
 }
@@ -228,7 +228,7 @@ bool lightLifeRows(scenes::Light& light, double timeSeconds, double sceneSizeMet
     if (light.animation && type.hasPosition()) changed |= wayRows(light, timeSeconds, sceneSizeMetres);
     for (const scenes::LightKeyedInfo& member : scenes::keyedMembers()) {
         const bool isPosition = member.member == scenes::LightKeyed::Position;
-        if (isPosition && keysOf(light, member.member) == nullptr && light.animation) continue; // goes another way
+        if (isPosition && keysOf(light, member.member) == nullptr && light.animation) continue; // another path type
         if (member.isOf(type)) changed |= keyRows(light, member, timeSeconds, sceneSizeMetres);
     }
     return changed;

@@ -3,7 +3,7 @@
 
 namespace tessera::viewer {
 
-/// Rows of the way that a light goes and of its keyframes. Whether they changed it.
+/// Rows for a light's path and its keyframes. Returns whether they changed it.
 bool lightLifeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres);
 
 } // namespace tessera::viewer

@@ -18,17 +18,17 @@ namespace {
 
 constexpr std::size_t kMostListRows = 12;
 
-/// Shift and Ctrl with a click on a name.
+/// Selection mode by Shift and Ctrl, for a click on a name.
 Choosing choosingNow() {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyShift) return Choosing::Range;
     return io.KeyCtrl ? Choosing::Toggle : Choosing::Alone;
 }
 
-/// A field in which the text of a name is edited; those letters that it cannot hold come back as they are. `flags` may
-/// say when it counts as entered.
+/// A field for editing a name; letters that it cannot hold are preserved. `flags` may specify when it counts as
+/// entered.
 bool nameField(const char* id, const char* hint, std::string& name, ImGuiInputTextFlags flags) {
-    constexpr std::size_t kRoomBytes = 1024; // for what is typed in one frame
+    constexpr std::size_t kRoomBytes = 1024; // for text typed in one frame
     FieldLetters letters;
     std::string buffer = letters.inField(name);
     buffer.resize(buffer.size() + kRoomBytes);
@@ -37,7 +37,7 @@ bool nameField(const char* id, const char* hint, std::string& name, ImGuiInputTe
     return isEntered;
 }
 
-/// In the place of the name. Enter and a click elsewhere take it, Esc does not.
+/// Replaces the name. Enter, or a click elsewhere, applies the text, Esc does not.
 void renamingField(State& state) {
     ImGui::SetNextItemWidth(-FLT_MIN);
     if (!state.renamed->isBegun) ImGui::SetKeyboardFocusHere();
@@ -57,7 +57,7 @@ void nameCell(State& state, int index, std::span<const int> list) {
     const std::string name = labelOf(lightLabel(state.open->scene().lights, std::size_t(index)));
     if (ImGui::Selectable(name.c_str(), state.isLightSelected(index), ImGuiSelectableFlags_AllowDoubleClick)) {
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
-            state.selectedLight = index; // the first click may have let go of it
+            state.selectedLight = index; // the first click may have deselected it
             beginRenaming(state);
         } else {
             selectLight(state, index, choosingNow(), list);
@@ -66,7 +66,7 @@ void nameCell(State& state, int index, std::span<const int> list) {
     tip("Ctrl and a click selects several, Shift and a click all between; a double click or F2 renames");
 }
 
-/// Switches all lights of a group, and its name selects them.
+/// The row of a group: switches all of its lights, and its name selects them.
 void groupRow(State& state, const ListedLight& group) {
     const Lights& lights = state.open->scene().lights;
     ImGui::PushID(group.group.c_str());
@@ -119,7 +119,7 @@ void tableRow(State& state, int index, bool isInGroup, bool isScrolledTo, std::s
     ImGui::SetCursorPosY(top + 0.5f * (ImGui::GetFrameHeight() - side));
     colorSwatch(light.color, side);
     ImGui::SameLine();
-    ImGui::SetCursorPosY(top); // the name's line is the switches', not the swatch's
+    ImGui::SetCursorPosY(top); // the name is aligned with the checkboxes, not the swatch
     ImGui::AlignTextToFramePadding();
     nameCell(state, index, list);
     if (isScrolledTo && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
@@ -132,7 +132,7 @@ void tableRow(State& state, int index, bool isInGroup, bool isScrolledTo, std::s
     ImGui::PopID();
 }
 
-/// Which lights the list has, and in which order.
+/// The search and the order of the list.
 void listingRow(LightListing& listing) {
     ImGui::SetNextItemWidth(0.55f * ImGui::GetContentRegionAvail().x);
     nameField("##search", "search", listing.search, 0);
@@ -150,7 +150,7 @@ void listingRow(LightListing& listing) {
 
 void lightList(State& state) {
     const Lights& lights = state.open->scene().lights;
-    // A light that was selected elsewhere comes into view.
+    // A light that was selected elsewhere scrolls into view.
     int& shown = *ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("shown"), scenes::kNone);
     const int count = int(lights.size()), selected = state.selectedLight;
     const bool isRenamed = state.renamed && !state.renamed->isBegun;
@@ -176,7 +176,7 @@ void lightList(State& state) {
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("solo", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableHeadersRow();
-    ImGuiListClipper clipper; // tens of thousands of rows, of which few are in view
+    ImGuiListClipper clipper; // tens of thousands of rows, few of them visible
     clipper.Begin(int(rows.size()));
     const int row = int(std::ranges::find(rows, selected, &ListedLight::light) - rows.begin());
     if (isMoved && row < int(rows.size())) clipper.ForceDisplayRangeByIndices(row, row + 1);

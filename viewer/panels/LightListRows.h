@@ -3,7 +3,7 @@
 
 namespace tessera::viewer {
 
-/// The scene's lights as rows that can be searched, ordered, grouped, chosen and renamed.
+/// The list of the scene's lights, with search, order, groups, selection and renaming.
 void lightList(State& state);
 
 } // namespace tessera::viewer

@@ -22,8 +22,8 @@ namespace tessera::viewer {
 namespace {
 
 constexpr float kFirstRangeMetres = 10.0f; ///< of a light that had none
-constexpr double kMostSurfaceShare = 0.5;  ///< of the scene's size: sides and lengths that are slid to
-constexpr double kMostRadiusShare = 0.1;   ///< the same of radii
+constexpr double kMostSurfaceShare = 0.5;  ///< of the scene's size: slider limit of sides and lengths
+constexpr double kMostRadiusShare = 0.1;   ///< the same, of radii
 
 bool brightnessRows(scenes::Light& light) {
     ImGui::BeginDisabled(scenes::hasKeys(light, scenes::LightKeyed::Color));
@@ -49,7 +49,7 @@ bool attenuationRow(scenes::Light& light) {
         return ImGui::DragFloat3("##Attenuation", &value.x, 0.01f, 0.0f, kMostAttenuation, "%.4g");
     });
     tip("Divided by A + B d + C d\xc2\xb2");
-    // Not all may be 0: the light would be endless at every distance.
+    // Not all may be 0: the light would be infinite at every distance.
     if (!changed || attenuation == glm::vec3(0.0f)) return false;
     light.attenuation = attenuation;
     return true;
@@ -73,7 +73,7 @@ bool rangeRow(scenes::Light& light) {
     return changed;
 }
 
-/// Lengths are slid up to `mostMetres`.
+/// Sliders of lengths end at `mostMetres`.
 bool lightParameterRow(const scenes::LightParameter& parameter, scenes::Light& light, double mostMetres) {
     using Kind = scenes::LightParameter::Kind;
     float& value = light.*parameter.member;
@@ -88,7 +88,7 @@ bool lightParameterRow(const scenes::LightParameter& parameter, scenes::Light& l
     return slider(parameter.label, value, parameter.least, parameter.most);
 }
 
-/// How large what shines is, or how soft shadows are.
+/// The size of an area light, or of the penumbras of others.
 bool sizeRow(scenes::Light& light, double sceneSizeMetres) {
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     const scenes::LightParameter* const size = scenes::sizeParameter(info);
@@ -177,7 +177,7 @@ bool placeRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     return changed;
 }
 
-/// What of several lights the rows below are about.
+/// Names the light whose values the rows below show, if several are selected.
 void selectionLine(const State& state, std::size_t selected) {
     if (selected < 2) return;
     const std::string label = labelOf(lightLabel(state.open->scene().lights, std::size_t(state.selectedLight)));
@@ -205,7 +205,7 @@ bool lightRows(scenes::Light& light, double timeSeconds, double sceneSizeMetres)
     return changed;
 }
 
-/// Buttons that change which lights there are.
+/// Buttons that add, duplicate and delete lights.
 void listButtons(State& state) {
     const bool any = state.selectedLight != scenes::kNone;
     const std::size_t count = state.allSelectedLights().size();
@@ -224,7 +224,7 @@ void listButtons(State& state) {
     tip("The selected lights (Del); Ctrl+A selects all");
 }
 
-/// Replaces the lights by many.
+/// Replaces all lights by scattered ones.
 void scatterRows(State& state) {
     row("Scatter");
     edit(state.scatter.count, 1, kMostScattered, [](int& count) {
@@ -235,7 +235,7 @@ void scatterRows(State& state) {
     tip("Ctrl+Z brings the old ones back");
 }
 
-/// Lights whose flicker is switched on one after another flicker differently.
+/// The flicker differs between lights, by their index.
 bool flickerRows(scenes::Light& light, std::size_t index) {
     row("Flickers");
     bool flickers = light.flicker.has_value();
@@ -249,7 +249,7 @@ bool flickerRows(scenes::Light& light, std::size_t index) {
     row("Flicker speed");
     changed |=
         edit(light.flicker->frequencyHz, kLeastFlickerHertz, scenes::LightFlicker::kMostHertz, [](double& hertz) {
-            constexpr double kMostShown = 30.0; // half of what most displays show in a second
+            constexpr double kMostShown = 30.0; // half the refresh rate of most displays
             return slideNumber("##FlickerSpeed", hertz, kLeastFlickerHertz, kMostShown, "%.2f Hz", true);
         });
     tip("Nothing in the flicker is faster");
@@ -263,7 +263,7 @@ void lightsPanel(State& state) {
     OpenScene& open = *state.open;
     const Lights& lights = open.scene().lights;
     const double timeSeconds = state.active().settings.timeSeconds;
-    listButtons(state); // first: they stay in view however long the list is
+    listButtons(state); // first, so that they stay visible however long the list is
     if (lights.empty())
         paragraph("There are no lights. Add one, or scatter many below.");
     else

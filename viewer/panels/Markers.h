@@ -4,7 +4,7 @@
 
 namespace tessera::viewer {
 
-/// Shows over the picture where lights are: lightMarkers().
+/// Draws the markers of lights over the image: lightMarkers().
 void drawMarkers(const State& state, const PictureArea& area, float scale);
 
 } // namespace tessera::viewer

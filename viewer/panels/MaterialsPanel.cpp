@@ -86,11 +86,11 @@ bool modelRows(Material& material) {
     return changed;
 }
 
-constexpr float kMostAbsorptionShown = 10.0f; // a tenth of a millimetre deep
+constexpr float kMostAbsorptionShown = 10.0f; // per millimetre: light gets a tenth of a millimetre deep
 
 constexpr float kLeastScaleShown = 1e-3f, kMostScaleShown = 1e3f;
 
-/// A named profile; one of a scene file's own is shown as such, and kept until another is chosen.
+/// A named profile. A scene file's own profile is listed too, until another one is chosen.
 bool profileRow(scenes::Subsurface& subsurface) {
     const std::span<const scenes::NamedProfile> named = scenes::namedProfiles();
     std::vector<Choice> choices;
@@ -138,7 +138,7 @@ bool surfaceRows(Material& material) {
         changed |= slider("Normal map", material.normalScale, 0.0f, kMostNormalScale, "x %.2f");
     row("Two sides");
     changed |= ImGui::Checkbox("##doubleSided", &material.doubleSided);
-    if (scenes::isTransparent(material)) return changed; // which casts none
+    if (scenes::isTransparent(material)) return changed; // transparent surfaces cast no shadow
     row("Shadow");
     changed |= ImGui::Checkbox("casts##material", &material.castsShadow);
     return changed;
@@ -156,11 +156,11 @@ void drawThumbnail(const scenes::Image& image, float sidePoints) {
             const glm::u8vec4& color = small.pixels[std::size_t(y * small.sizePixels.x + x)];
             const ImVec2 from(std::floor(corner.x + step * float(x)), std::floor(corner.y + step * float(y)));
             const ImVec2 to(std::floor(corner.x + step * float(x + 1)), std::floor(corner.y + step * float(y + 1)));
-            list.AddRectFilled(from, to, IM_COL32(color.x, color.y, color.z, 255)); // where it is clear too
+            list.AddRectFilled(from, to, IM_COL32(color.x, color.y, color.z, 255)); // opaque everywhere
         }
 }
 
-/// The textures that scale values, each as a small picture with its name.
+/// The textures that scale values, each as a thumbnail with its name.
 void textureRows(const Material& material, const std::vector<scenes::Image>& images) {
     const float side = 2.0f * ImGui::GetFrameHeight();
     for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots) {
@@ -194,7 +194,7 @@ bool materialRows(Material& material) {
         changed = true;
     }
     changed |= modelRows(material);
-    // Of what transmits or has a film it is ignored.
+    // Ignored for transmissive and iridescent materials.
     if (scenes::infoOf(material.model).isLit && !scenes::isTransmissive(material) && !scenes::isIridescent(material))
         changed |= subsurfaceRows(material.subsurface);
     changed |= colorRow("Emission", material.emissive, kMostRadiance);
@@ -211,7 +211,7 @@ void materialsPanel(State& state) {
         const std::string& name = materials[index].name;
         return name.empty() ? fmt::format("material {}", index) : name;
     };
-    std::string name; // of the entry that is drawn
+    std::string name; // of the entry being drawn
     const auto choiceAt = [&](std::size_t index) {
         name = nameOf(index);
         return Choice{name, ""};

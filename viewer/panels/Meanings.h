@@ -3,8 +3,7 @@
 
 namespace tessera::viewer {
 
-/// What a row of the panels is about, by its label, as the box beside the pointer says it; empty where the label says
-/// all, or the row's own widgets tell more.
+/// The tooltip of a panel's row, by its label; empty if the label is sufficient, or the row's widgets have tooltips.
 std::string_view meaningOf(std::string_view label);
 
 } // namespace tessera::viewer

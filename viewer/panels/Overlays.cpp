@@ -20,8 +20,8 @@ enum class Corner { UpperLeft, UpperRight };
 
 constexpr ImU32 kBehindName = IM_COL32(20, 21, 24, 200);
 
-/// Words in a corner of a part of the picture, beyond which they do not reach. `top` is how much of the part's height
-/// is taken; it grows by what these take.
+/// Draws text in a corner of a part of the image, clipped to it. `top` is the height already used in the part, and
+/// grows by that of the text.
 void drawName(const std::string& name, const PictureArea& part, Corner corner, ImU32 color, float scale, float& top) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const glm::vec2 end = part.corner + part.size;
@@ -37,13 +37,13 @@ void drawName(const std::string& name, const PictureArea& part, Corner corner, I
     top += size.y + 2.5f * pad;
 }
 
-/// Of a view other than the lit picture: its name, large, and its meaning. Not where they would cover much of the part.
+/// The name of a view other than the lit image, large, and its meaning; omitted if they would cover much of the part.
 void drawTitle(const Look& look, const std::vector<scenes::Light>* lights, const PictureArea& part, Corner corner,
                float scale, float& top) {
     if (look.settings.view == frame::DebugView::Final) return;
     constexpr float kLeastEms = 16.0f, kMostShare = 0.25f;
     ImFont* const font = ImGui::GetFont();
-    ImFont* const titleFont = ImGui::GetIO().Fonts->Fonts.back(); // of that size, where fonts are installed
+    ImFont* const titleFont = ImGui::GetIO().Fonts->Fonts.back(); // the title font, if fonts are installed
     const float em = ImGui::GetFontSize(), pad = 5.0f * scale, width = part.size.x - 6.0f * pad;
     const std::string name = viewName(look, lights),
                       meaning = viewMeaning(look.settings.view, look.settings.soloLight.has_value());

@@ -2,7 +2,7 @@
 #include "viewer/session/Facts.h"
 #include "viewer/session/State.h"
 
-/// The viewer's panels, a function each. They show the state and change it; they request longer actions
+/// The viewer's panels, one function each. They show the state and change it; they request longer actions
 /// (State::requests).
 namespace tessera::viewer {
 
@@ -22,13 +22,13 @@ void cullingPanel(State& state, const Facts& facts);
 void graphPanel(State& state, const Facts& facts);
 void savePanel(State& state);
 
-/// Asks what State::question says, over all else; draws nothing where that is none.
+/// Shows State::question as a dialog above everything else; draws nothing without one.
 void questionDialog(State& state, float scale);
 
-/// Asks for a file, over the picture and the panels, as State::files says; draws nothing where that is none.
+/// Shows the file dialog State::files over the image and the panels; draws nothing without one.
 void fileDialog(State& state, float scale);
 
-/// Every key, over the picture.
+/// Shows all keys over the image.
 void helpOverlay(State& state, float scale);
 
 } // namespace tessera::viewer

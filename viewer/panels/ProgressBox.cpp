@@ -11,8 +11,8 @@ namespace tessera::viewer {
 
 namespace {
 
-/// The first corner where a box meets no other; each lies so far from the lower and upper edge, where messages and
-/// names stand.
+/// The first corner where a box does not overlap another one; `fromEdge` keeps it off the lower and upper edges, which
+/// have messages and names.
 glm::vec2 freeCorner(const PictureArea& area, const glm::vec2& size, float pad, float fromEdge,
                      const std::optional<Box>& other) {
     const float left = area.corner.x + pad, right = area.corner.x + area.size.x - pad - size.x;
@@ -29,11 +29,11 @@ void drawProgress(const Progress& progress, const PictureArea& area, const std::
                   ImDrawList& list) {
     constexpr ImU32 kBox = IM_COL32(20, 21, 24, 255), kWords = IM_COL32(220, 222, 228, 255);
     constexpr ImU32 kRail = IM_COL32(60, 62, 68, 255), kDone = IM_COL32(70, 140, 220, 255);
-    constexpr float kWidthEms = 24.0f, kAboveEdgeEms = 5.0f; // above a message of a line
+    constexpr float kWidthEms = 24.0f, kAboveEdgeEms = 5.0f; // above a message of one line
     const float em = ImGui::GetFontSize(), pad = 8.0f * scale, rail = 5.0f * scale;
     const float width = std::min(kWidthEms * em, area.size.x - 2.0f * pad);
     const ImVec2 size(width, 2.0f * em + rail + 4.0f * pad);
-    if (width < 8.0f * em || area.size.y < size.y + 2.0f * pad) return; // no room to read it
+    if (width < 8.0f * em || area.size.y < size.y + 2.0f * pad) return; // too small to read
     const float fromEdge = std::min(kAboveEdgeEms * em, area.size.y - size.y - pad);
     const glm::vec2 place = freeCorner(area, {size.x, size.y}, pad, fromEdge, other);
     const ImVec2 corner(place.x, place.y);
@@ -59,7 +59,7 @@ std::string progressText(const Progress& progress, float widthPixels) {
     return shortened(progress.text, widthPixels - mostEnd) + end;
 }
 
-/// Tiles are lit one by one, so that a single object has shares.
+/// In percent of tiles, so that even a single object shows progress.
 std::string spreadText(const engine::SpreadProgress& progress) {
     const std::size_t percent = progress.tiles > 0 ? 100 * progress.doneTiles / progress.tiles : 0;
     return fmt::format("spreading light: {} of {} object{}, {} %", progress.doneObjects, progress.objects,

@@ -9,13 +9,13 @@ struct ImDrawList;
 
 namespace tessera::viewer {
 
-/// A box in a corner of the picture that says what takes long, how far it is, and that Esc cancels it: beside the
-/// picture's middle, and clear of another box. It covers what it drew before.
+/// Draws a box in a corner of the image with the long operation, its progress, and a hint that Esc cancels it; clear of
+/// the image centre and of another box. It covers its previous contents.
 void drawProgress(const Progress& progress, const PictureArea& area, const std::optional<Box>& other, float scale,
                   ImDrawList& list);
 
-/// "Filtering sky: 45 %", or "Loading sky ..." where nobody knows the share, on one line of a width (shortened()); what
-/// is left of a name does not depend on the share.
+/// "Filtering sky: 45 %", or "Loading sky ..." if the fraction is unknown, shortened to one line of a width; the name
+/// is shortened independently of the fraction.
 std::string progressText(const Progress& progress, float widthPixels);
 
 /// "spreading light: 1 of 3 objects, 45 %"

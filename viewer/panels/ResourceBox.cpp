@@ -18,7 +18,7 @@ constexpr Choice kChannels[] = {
     {"colours", "red, green and blue"}, {"red", ""}, {"green", ""}, {"blue", ""}, {"alpha", ""}};
 constexpr Choice kWords[] = {{"whole numbers", ""}, {"floats", ""}, {"hexadecimal", ""}};
 
-/// Whether another one was chosen.
+/// Returns whether another one was chosen.
 template <typename Enum>
 bool chooseOne(const char* label, Enum& value, std::span<const Choice> choices, std::string_view meaning) {
     const auto chosen = choose(label, choices[std::size_t(value)].name, choices, std::size_t(value), meaning);
@@ -26,7 +26,7 @@ bool chooseOne(const char* label, Enum& value, std::span<const Choice> choices, 
     return chosen.has_value();
 }
 
-/// One of several, counted from 0.
+/// A row that chooses one of several, counted from 0.
 void numberRow(const char* label, int& value, int count, std::string_view meaning) {
     if (count < 2) return;
     row(label, meaning);
@@ -61,20 +61,20 @@ void textureRows(ResourceView& view, const graph::TextureDesc& desc, const Numbe
     ImGui::Checkbox("of sRGB", &view.isCurved);
 }
 
-/// The texture in what is left of the window, and the numbers of the texel under the pointer.
+/// Draws the texture in the rest of the window, and the numbers of the texel under the pointer.
 void picture(ResourceView& view, const Facts::Resource& resource) {
     const ResourceContents& contents = *resource.contents;
     const glm::vec2 texels(contents.sizeTexels);
     const ImVec2 room = ImGui::GetContentRegionAvail(), at = ImGui::GetCursorScreenPos();
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const glm::vec2 corner(at.x, at.y), size(std::max(room.x, line), std::max(room.y - line, line));
-    // The texture lies in the middle of a place of the frame's shape, which is what is magnified.
+    // The texture is centred in an area of the frame's shape, which is magnified as a whole.
     const glm::vec2 part = texels * std::min(size.x / texels.x, size.y / texels.y) / size, rim = 0.5f * (1.0f - part);
     const auto screenOf = [&](const glm::vec2& share) {
         const glm::vec2 place = corner + size * view.magnification.shareOf(rim + part * share);
         return ImVec2(place.x, place.y);
     };
-    // What takes the mouse, so that a drag does not move the window.
+    // Takes the mouse, so that a drag does not move the window.
     ImGui::InvisibleButton("##picture", {size.x, size.y});
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
@@ -87,7 +87,7 @@ void picture(ResourceView& view, const Facts::Resource& resource) {
     const bool isOver = ImGui::IsItemHovered() && glm::all(glm::greaterThanEqual(texel, glm::ivec2(0))) &&
                         glm::all(glm::lessThan(texel, contents.sizeTexels));
     const ImVec2 from = screenOf(glm::vec2(texel) / texels), to = screenOf(glm::vec2(texel + 1) / texels);
-    constexpr float kSeenPoints = 4.0f; // a smaller one has no outline
+    constexpr float kSeenPoints = 4.0f; // smaller ones get no outline
     if (isOver && to.x - from.x >= kSeenPoints) list.AddRect(from, to, ImGui::GetColorU32(ImGuiCol_CheckMark));
     list.PopClipRect();
     if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) view.magnification.zoom(io.MouseWheel > 0.0f ? 1 : -1, share);

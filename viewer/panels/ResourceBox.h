@@ -5,8 +5,8 @@
 
 namespace tessera::viewer {
 
-/// A window over the picture with what State::resource names: a texture as a picture, a buffer as numbers. Draws
-/// nothing where that names none.
+/// Draws a window with the resource State::resource: a texture as an image, a buffer as numbers. Draws nothing without
+/// one.
 void drawResource(State& state, const Facts& facts, const PictureArea& area);
 
 } // namespace tessera::viewer

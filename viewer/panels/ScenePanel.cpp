@@ -52,7 +52,7 @@ void hookRows(OpenScene& open) {
     }
 }
 
-/// Of the materials of models that have some.
+/// Chooses a material variant, for models that have some.
 void variantList(State& state) {
     const std::vector<std::string>& variants = state.open->scene().variants;
     if (variants.empty()) return;

@@ -1,4 +1,4 @@
-// The panels of settings: a widget each by the setting's kind, in the order of the table.
+// Panels of settings: one widget per setting, by its kind, in the order of the table.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace {
 
 using engine::Setting;
 
-/// A list to choose from; "automatic" stands in front where the setting may be left open.
+/// A list to choose from; it begins with "automatic" if the setting may be unset.
 bool show(const Setting& setting, const engine::ChoiceKind& kind, Look& look) {
     using Entry = engine::ChoiceKind::Entry;
     std::vector<Entry> entries = kind.entries;
@@ -80,7 +80,7 @@ bool show(const Setting& setting, const engine::SwitchKind&, Look& look) {
     return isEdited;
 }
 
-/// Sizes are the window's, and cameras have a panel of their own.
+/// Sizes follow the window, and cameras have their own panel.
 bool show(const Setting&, const engine::SizeKind&, Look&) {
     return false;
 }
@@ -98,11 +98,11 @@ void settingRows(State& state, engine::SettingPanel panel) {
         const bool isChosen =
             std::visit([&](const auto& kind) { return show(setting, kind, look); }, setting.value.kind);
         if (isChosen && std::ranges::count(scenes::kEnvironmentViewKeys, setting.key) > 0)
-            viewEnvironment(state, environmentSeenBy(look), widgetGesture()); // it is an edit of the scene
+            viewEnvironment(state, environmentSeenBy(look), widgetGesture()); // an edit of the scene
         ImGui::EndDisabled();
         tip(idle);
         if (const auto aside = look.aside.find(setting.key); isChosen && aside != look.aside.end())
-            look.aside.erase(aside); // another choice was made in its place
+            look.aside.erase(aside); // replaced by the new choice
     }
     look = possible(look);
 }
@@ -122,7 +122,7 @@ void smoothingRow(State& state) {
         "shown. Files that are saved, comparisons and inspected pixels are those of the picture itself.");
 }
 
-/// One line in any state, so that rows below stay where the pointer is.
+/// Always one line, so that the rows below do not move under the pointer.
 void loadingLine(const State& state, const Facts& facts) {
     if (state.loadingEnvironment.empty()) {
         ImGui::TextDisabled("Open ... above, or drop .hdr or .exr");
@@ -136,7 +136,7 @@ void loadingLine(const State& state, const Facts& facts) {
     if (progress.canCancel) tip("Esc leaves the environment as it is");
 }
 
-/// The maps to choose from, and the dialog for others.
+/// The list of environment maps, and the dialog for others.
 void environmentList(State& state, const Facts& facts) {
     std::string source;
     if (state.open && state.open->scene().environment) source = state.open->scene().environment->source;

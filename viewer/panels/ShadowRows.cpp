@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostLightRows = 8;
 
-/// Of the side of a light's maps.
+/// The side of a light's maps as text.
 std::string sideText(const engine::DrawnShadows::Light& light) {
     if (light.sideTexels == 0) return "no room";
     if (light.sideTexels == light.wantedTexels) return std::to_string(light.sideTexels);
@@ -61,7 +61,7 @@ void lightTable(State& state, const engine::DrawnShadows& shadows) {
     ImGui::EndTable();
 }
 
-/// Where the filter finds nothing that one without sizes would not.
+/// Whether the filter uses light sizes, but none of the lights has one.
 bool hasNoSizeToHeed(State& state, const engine::DrawnShadows& shadows) {
     const frame::ShadowFilterInfo& filter = infoOf(state.active().settings.shadowFilter);
     const std::vector<scenes::Light>& lights = state.open->scene().lights;

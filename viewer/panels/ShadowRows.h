@@ -4,8 +4,8 @@
 
 namespace tessera::viewer {
 
-/// What holds the shadows of the latest frame: the atlas, its maps, and a table of lights. A click on a light selects
-/// it. The scene is open.
+/// Rows about the shadows of the latest frame: the atlas, its maps, and a table of lights. A click on a light selects
+/// it. Requires an open scene.
 void shadowRows(State& state, const engine::DrawnShadows& shadows);
 
 } // namespace tessera::viewer

@@ -8,8 +8,8 @@ namespace tessera::viewer {
 
 using TextVisitor = std::function<void(std::string_view)>;
 
-/// Calls a visitor with the texts that come from files and folders and that the interface may show: of the scene what
-/// its file has given names, of the rest what is shown now.
+/// Call a visitor with texts that come from files and folders and that the interface may show: the names in the scene's
+/// file, or all other texts that are currently displayed.
 void visitSceneText(const OpenScene& open, const TextVisitor& visit);
 void visitShownText(const State& state, const TextVisitor& visit);
 

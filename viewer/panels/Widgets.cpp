@@ -14,7 +14,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Of a panel's width.
+/// Fraction of a panel's width.
 constexpr float kLabelShare = 0.36f;
 constexpr float kTipWidthEm = 26.0f;
 
@@ -22,15 +22,15 @@ void text(std::string_view words) {
     ImGui::TextUnformatted(words.data(), words.data() + words.size());
 }
 
-/// An item under the pointer.
+/// The item under the pointer.
 struct Hovered {
     ImVec2 corner{};
-    int frame = 0; ///< in which the pointer was still there
+    int frame = 0; ///< the last one with the pointer on it
     bool isClicked = false;
 };
 
-/// Whether the hovered latest item was clicked since the pointer came to it: its box would hide what that brings.
-/// `latest` is what was hovered when this was asked last.
+/// Whether the hovered item was clicked since the pointer entered it: a tooltip would hide the result. `latest` is the
+/// item of the previous call.
 bool isUsed(Hovered& latest) {
     const ImVec2 corner = ImGui::GetItemRectMin();
     const int frame = ImGui::GetFrameCount();
@@ -39,7 +39,7 @@ bool isUsed(Hovered& latest) {
     return latest.isClicked;
 }
 
-/// Beside the panels rather than over their rows, where there is room.
+/// Places the tooltip beside the panels instead of over their rows, if there is room.
 void placeTooltip() {
     const ImGuiIO& io = ImGui::GetIO();
     const float em = ImGui::GetFontSize(), besideX = ImGui::GetWindowPos().x + ImGui::GetWindowWidth() + 0.5f * em;
@@ -60,7 +60,7 @@ void tooltip(std::string_view words, const SmallPicture& picture = {}) {
     ImGui::EndTooltip();
 }
 
-/// What the row is about, while the pointer is at its label, which was just shown, or behind it.
+/// Shows the tooltip of a row while the pointer is at its label, which is the latest item, or to the right of it.
 void rowTip(std::string_view meaning) {
     static Hovered latest;
     if (meaning.empty() || !ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem)) return;
@@ -79,7 +79,7 @@ constexpr ImGuiDataType kDataType<float> = ImGuiDataType_Float;
 template <>
 constexpr ImGuiDataType kDataType<double> = ImGuiDataType_Double;
 
-/// Of a widget whose label stands beside it.
+/// ID of a widget whose label is beside it.
 std::string idOf(const char* label) {
     return std::string("##") + label;
 }
@@ -146,16 +146,16 @@ Gesture widgetGesture() {
 template <typename Number>
 bool slideNumber(const char* id, Number& value, Number least, Number most, const char* format, bool isLogarithmic) {
     const ImGuiSliderFlags flags = isLogarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
-    // Dear ImGui's own grab would lie behind the number like a selection.
+    // Hides Dear ImGui's grab, which would lie behind the number like a selection.
     ImGui::PushStyleColor(ImGuiCol_SliderGrab, ImVec4());
     ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, ImVec4());
     const bool isChanged = ImGui::SliderScalar(id, kDataType<Number>, &value, &least, &most, format, flags);
     ImGui::PopStyleColor(2);
-    if (ImGui::TempInputIsActive(ImGui::GetItemID())) return isChanged; // a number is typed
+    if (ImGui::TempInputIsActive(ImGui::GetItemID())) return isChanged; // a number is being typed
     ImRect grab;
     const ImRect frame(ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
     ImGui::SliderBehavior(frame, ImGui::GetID("grab"), kDataType<Number>, &value, &least, &most, format, flags, &grab);
-    const float unit = ImGui::GetStyle().GrabRounding, x = grab.GetCenter().x; // 3 pixels on usual displays
+    const float unit = ImGui::GetStyle().GrabRounding, x = grab.GetCenter().x; // 3 pixels at standard density
     const float railY = frame.Max.y - unit, inset = 1.5f * unit;
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImU32 color = ImGui::GetColorU32(ImGui::IsItemActive() ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab);
@@ -220,7 +220,7 @@ std::string shortened(std::string_view words, float widthPixels) {
         return ImGui::CalcTextSize(text.c_str()).x <= widthPixels;
     };
     if (fits(line)) return line;
-    std::vector<std::size_t> begins; // of its letters
+    std::vector<std::size_t> begins; // starts of its letters
     for (std::size_t at = 0; at < line.size();
          at += std::max<std::size_t>(letterBytes(std::string_view(line).substr(at)), 1))
         begins.push_back(at);

@@ -12,7 +12,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kProcess = 1;
 constexpr int kCpuRow = 1;
 constexpr int kGpuRow = 2;
-constexpr double kMicroseconds = 1000.0; ///< of a millisecond
+constexpr double kMicroseconds = 1000.0; ///< per millisecond
 
 Json rowName(int row, const std::string& name) {
     return {{"name", "thread_name"}, {"ph", "M"}, {"pid", kProcess}, {"tid", row}, {"args", {{"name", name}}}};
@@ -38,7 +38,7 @@ std::string chromeTrace(std::span<const TraceFrame> frames, const std::string& r
     events.push_back({{"name", "process_name"}, {"ph", "M"}, {"pid", kProcess}, {"args", {{"name", "tessera"}}}});
     events.push_back(rowName(kCpuRow, "CPU"));
     events.push_back(rowName(kGpuRow, "GPU: " + renderer));
-    double cpuFreeUs = 0.0, gpuFreeUs = 0.0; // stretches of a row may contain each other, but never overlap
+    double cpuFreeUs = 0.0, gpuFreeUs = 0.0; // events of a row may nest, but never overlap
     for (const TraceFrame& frame : frames) {
         const double startUs = std::max(frame.startSeconds * 1000.0 * kMicroseconds, cpuFreeUs);
         const double durationUs = std::max(frame.cpuMs * kMicroseconds, passesUs(frame));
@@ -55,7 +55,7 @@ std::string chromeTrace(std::span<const TraceFrame> frames, const std::string& r
         gpuFreeUs = gpuUs;
     }
     const Json trace = {{"traceEvents", std::move(events)}, {"displayTimeUnit", "ms"}};
-    // A driver may call itself by any bytes.
+    // The driver's name may contain any bytes.
     return trace.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

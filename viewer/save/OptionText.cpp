@@ -5,7 +5,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Of three numbers, to the last bit; nothing where they are not given.
+/// An option of three numbers, bit-exact; empty if they are not given.
 std::string pointText(const char* flag, const std::optional<glm::dvec3>& point) {
     return point ? fmt::format(" {} {},{},{}", flag, point->x, point->y, point->z) : std::string();
 }
@@ -17,7 +17,7 @@ std::string shellWord(const std::string& word) {
     if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
     std::string quoted = "'";
     for (const char c : word) {
-        if (c == '\'') quoted += "'\\'"; // ends the quotes, quotes this one, and begins them anew
+        if (c == '\'') quoted += "'\\'"; // closes the quotes, escapes this one, and reopens them
         quoted += c;
     }
     quoted += '\'';

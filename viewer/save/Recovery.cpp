@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLock = "lock"; ///< in each folder
+constexpr const char* kLock = "lock"; ///< in each run's folder
 
 bool areEdits(const fs::path& file) {
     return file.extension() == ".json";
@@ -34,7 +34,7 @@ bool areEdits(const fs::path& file) {
 
 FileLock::FileLock(const fs::path& file) : descriptor_(::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600)) {
     if (descriptor_ < 0) throw std::runtime_error(std::generic_category().message(errno));
-    ::flock(descriptor_, LOCK_EX); // file systems without locks keep edits all the same
+    ::flock(descriptor_, LOCK_EX); // without file system locks, edits are saved all the same
 }
 
 FileLock::~FileLock() {
@@ -81,9 +81,9 @@ void Recovery::discard(const fs::path& file) {
 const fs::path& Recovery::ownFolder() {
     std::error_code error;
     if (lock_ && fs::exists(own_ / kLock, error)) return own_;
-    lock_.reset(); // the folder was cleaned away
+    lock_.reset(); // the folder was deleted
     fs::create_directories(*folder_, error);
-    // A run before may have had the same process number.
+    // An earlier run may have had the same process number.
     int number = 1;
     do {
         own_ = *folder_ / (std::to_string(getpid()) + (number == 1 ? "" : fmt::format("-{}", number)));

@@ -26,7 +26,7 @@ std::string options(const RenderRequest& request, const scenes::Scene& scene) {
     return text + poseText(request.pose);
 }
 
-/// What begins with a dash would be taken for an option.
+/// Prefixes paths that begin with a dash, so that they are not taken for options.
 std::string argument(const std::string& path) {
     return shellWord(path.starts_with('-') ? "./" + path : path);
 }

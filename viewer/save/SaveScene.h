@@ -6,19 +6,18 @@
 
 namespace tessera::viewer {
 
-/// What names of files call a scene: the stem of its own file, without what a file that was saved before has around it.
+/// The name of a scene in file names: the stem of its file, without the prefix and number of a file saved earlier.
 std::string savedStem(const std::string& source);
 
-/// Writes a scene as a .json file that loads back identically but for what `seen` says (scenes::sceneText), with the
-/// viewpoints that were stored of it as further cameras, whole or not at all. Throws InputError for a name that is no
-/// .json file and for what sceneText() refuses, std::runtime_error when writing fails; an earlier file of that name
-/// then stays.
+/// Writes a scene as a .json file that loads back identically except for the view `seen` (scenes::sceneText), with its
+/// stored viewpoints as further cameras. The file is written completely or not at all. Throws InputError for names
+/// without .json and for what sceneText() refuses, std::runtime_error if writing fails; an earlier file then stays.
 void saveScene(const std::string& path, const scenes::Scene& scene, const scenes::SceneOrigin& origin,
                const scenes::EnvironmentView& seen, std::span<const scenes::Camera> viewpoints = {});
 
-/// Saves the open scene with its edits, current camera, clip and time, and its environment as it is turned and
-/// brightened. From then on that file is the open scene, and the first of the recent ones; the environment is the
-/// file's, and the looks leave it as it is. Throws as saveScene() does; then nothing has changed.
+/// Saves the open scene with its edits, current camera, clip and time, and its environment as rotated and scaled by the
+/// view. Then the file is the open scene and the first recent one; the environment is the file's, and the view no
+/// longer changes it. Throws as saveScene() does; then nothing has changed.
 void saveOpenScene(State& state, const std::string& path);
 
 } // namespace tessera::viewer

@@ -30,7 +30,7 @@ TraceFrame traced(const FrameTimes& frame) {
     return result;
 }
 
-/// Black where one is lower than others.
+/// Joins images side by side, with black below lower ones.
 DisplayImage besideOneAnother(std::span<const DisplayImage> images) {
     DisplayImage whole;
     for (const DisplayImage& image : images) {

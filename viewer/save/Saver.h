@@ -10,16 +10,16 @@ class Saver {
 public:
     Saver(State& state, Screen& screen, const EventLog& log) : state_(state), screen_(screen), log_(log) {}
 
-    /// A name of the current folder that is free (freePath), after the open scene.
+    /// A free name in the current folder (freePath), based on the open scene's.
     std::string freeName(const char* ending) const;
-    /// The picture at full resolution, as `tessera render` writes it; by the name's end as a display shows it, of a
-    /// comparison both sides beside each other, or the active side's radiance.
+    /// Saves the image at full resolution, as `tessera render` does. The extension selects the display colours, with
+    /// both sides of a comparison beside each other, or the radiance of the active side.
     void picture(glm::ivec2 sizePixels, const std::string& path);
     /// saveOpenScene().
     void scene(const std::string& path);
-    /// The command line that renders the active side's picture, of a scene without edits that are not saved.
+    /// The command line that renders the active side's image. Requires a scene without unsaved edits.
     std::string command(glm::ivec2 sizePixels);
-    /// The latest frames' timings, for chrome://tracing or Perfetto, under a free name.
+    /// Saves the timings of the latest frames for chrome://tracing or Perfetto, under a free name.
     void trace();
 
 private:

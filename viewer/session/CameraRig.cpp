@@ -5,7 +5,7 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr double kZoomPerStep = 0.88; ///< of the distance, a step of the wheel
+constexpr double kZoomPerStep = 0.88; ///< distance factor per wheel step
 
 } // namespace
 

@@ -5,8 +5,7 @@
 
 namespace tessera::viewer {
 
-/// The camera of the window: it starts as a given one and is moved by orbiting or flying; changing between the two
-/// moves nothing.
+/// The window's camera: starts as a given one and orbits or flies; switching the mode does not move it.
 class CameraRig {
 public:
     enum class Mode { Orbit, Fly };
@@ -16,47 +15,47 @@ public:
 
     Mode mode() const { return mode_; }
     void setMode(Mode mode);
-    /// Mode and flying speed become those of another rig: how one moves is no matter of where one is.
+    /// Takes mode and flying speed from another rig, but not the pose.
     void moveAs(const CameraRig& other);
     double flyMetresPerSecond() const { return fly_.metresPerSecond(); } ///< without Shift
 
-    /// Drags and wheel of the mouse; each mode takes its own. `heightPixels` is the picture's.
+    /// Mouse drags and wheel, as the mode defines them. `heightPixels` is the image height.
     void rotate(const glm::dvec2& dragPixels, double heightPixels);
     void pan(const glm::dvec2& dragPixels, double heightPixels);
     void zoom(double factor, const glm::dvec2& cursorFromCenterPixels, double heightPixels);
-    /// Steps of the mouse's wheel, positive ones away from the user: nearer to what is under the cursor, or faster
-    /// where one flies.
+    /// Steps of the mouse wheel, positive away from the user: closer to the point under the cursor, or faster when
+    /// flying.
     void wheel(double steps, const glm::dvec2& cursorFromCenterPixels, double heightPixels);
     void hold(const FlyKeys& keys);
 
-    /// All of the scene in view, or all of a box.
+    /// Brings the whole scene, or a box, into view.
     void frameScene(double aspect) { frame(boundsWS_, aspect); }
     void frame(const scenes::Box3& boundsWS, double aspect);
-    /// Slides across the picture so that orbits turn about a point, which comes into the picture's middle at its depth.
-    /// Nothing happens where it lies behind the eye, or when flying.
+    /// Pans so that orbits turn about a point, which moves to the image centre at its depth. No effect if it lies
+    /// behind the eye, or when flying.
     void turnAbout(const glm::dvec3& pivotWS);
     /// Turns about the pivot to another heading.
     void look(const Heading& heading);
-    /// Moves to a pose.
+    /// Moves to a pose, damped.
     void goTo(const CameraPose& pose);
-    /// Back to where it started, exactly.
+    /// Moves back to the start pose, exactly.
     void goHome();
 
-    /// Is at a pose at once.
+    /// Jumps to a pose without damping.
     void jumpTo(const CameraPose& pose);
     void advance(double stepSeconds, double heightPixels);
     bool isAtRest() const;
     /// Makes the current camera, `here`, the start that goHome() returns to. Movements in progress continue.
     void startHere(const scenes::Camera& here) { startAt(here, pose()); }
-    /// Makes another camera the start, whose pose is `home`. Moves nothing that was moved.
+    /// Makes another camera the start, with the pose `home`. A moved camera stays where it is.
     void startAt(const scenes::Camera& start, const CameraPose& home);
 
     const CameraPose& pose() const;
     const scenes::Camera& start() const { return start_; }
     const CameraPose& home() const { return home_; }
-    /// Whether it is elsewhere than where it started.
+    /// Whether it has left the start pose.
     bool isMoved() const { return pose() != home_; }
-    /// The camera to draw: the start camera, to the last bit, while nothing moved it.
+    /// The camera to draw: bit-identical to the start camera while unmoved.
     scenes::Camera camera() const { return isMoved() ? cameraAt(pose(), start_) : start_; }
 
 private:

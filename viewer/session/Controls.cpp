@@ -14,13 +14,13 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr float kDividerReach = 6.0f; ///< screen coordinates to either side that grab it
-constexpr float kPanelReach = 4.0f;   ///< the same of the picture's left side, which moves the panels' edge
-constexpr float kMarkerReach = 9.0f;  ///< the same around a light's marker, and around its handles
-constexpr float kClickReach = 3.0f;   ///< movement of a hand during a click
+constexpr float kDividerReach = 6.0f; ///< grab distance to either side, screen coordinates
+constexpr float kPanelReach = 4.0f;   ///< the same inside the image's left edge, for the panels' edge
+constexpr float kMarkerReach = 9.0f;  ///< the same around a light's marker and its handles
+constexpr float kClickReach = 3.0f;   ///< largest movement of the pointer during a click
 constexpr double kDoubleClickSeconds = 0.4;
-constexpr double kTurnPerHeight = 180.0; ///< degrees of the environment, a drag as far as the picture is high
-constexpr double kZoomPerHeight = 0.05;  ///< of the distance, a drag of the picture's height upwards
+constexpr double kTurnPerHeight = 180.0; ///< rotation of the environment in degrees, per drag of the image height
+constexpr double kZoomPerHeight = 0.05;  ///< distance factor, per upward drag of the image height
 
 glm::vec2 fromCenter(const glm::vec2& point, const PictureArea& area) {
     return point - area.corner - 0.5f * area.size;
@@ -38,7 +38,7 @@ scenes::Light lightShown(const State& state, int index) {
     return scenes::lightAtTime(state.open->scene().lights[std::size_t(index)], state.looks[0].settings.timeSeconds);
 }
 
-/// The light whose marker is under the pointer: the selected one before others.
+/// The light whose marker is under the pointer; the selected light takes precedence.
 int markedLight(const State& state, const PictureArea& area, const glm::vec2& point) {
     if (!state.open || isEmpty(area)) return scenes::kNone;
     for (const LightMarker& marker : lightMarkers(state, area))
@@ -105,7 +105,7 @@ std::optional<LightFigure> selectedFigure(const State& state, const PictureArea&
 }
 
 std::vector<LightMarker> lightMarkers(const State& state, const PictureArea& area) {
-    constexpr double kSunInset = 16.0, kFirstSun = 48.0, kSunStep = 32.0; // from the right side, and downwards
+    constexpr double kSunInset = 16.0, kFirstSun = 48.0, kSunStep = 32.0; // from the right edge, and downwards
     const Lights& lights = state.open->scene().lights;
     const PictureView view = viewOf(state, area);
     std::vector<LightMarker> markers;
@@ -283,7 +283,7 @@ void Controls::takeHandle(const LightHandle& handle, State& state, const Picture
 }
 
 void Controls::dragHandle(State& state, const PictureArea& area, const glm::vec2& point) {
-    // Del, or another scene, may have taken the light away.
+    // The light may have been deleted by Del, or the scene replaced.
     if (state.selectedLight != handledLight_ || !hasSelectedLight(state)) return endDrag(state);
     scenes::Light light = state.open->scene().lights[std::size_t(handledLight_)];
     const bool isOneSided = flying_.fast; // Shift
@@ -297,7 +297,7 @@ void Controls::move(const InputEvent& event, State& state, const PictureArea& ar
     const glm::dvec2 moved = event.position - pointer_;
     pointer_ = event.position;
     if (drag_ == Drag::PanelEdge) {
-        constexpr float kMostShare = 0.8f; // of the window: some of the picture stays
+        constexpr float kMostShare = 0.8f; // of the window's width: some of the image stays visible
         const float most = std::min(kMostPanelWidth, kMostShare * (area.corner.x + area.size.x) / area.scale);
         state.panelWidth =
             std::clamp(std::round(pointer_.x / area.scale), kLeastPanelWidth, std::max(most, kLeastPanelWidth));
@@ -347,12 +347,12 @@ void Controls::move(const InputEvent& event, State& state, const PictureArea& ar
 }
 
 void Controls::key(const InputEvent& event, State& state, const Claims& claims) {
-    // Keys that are let go are heard even while text is typed, so that none stays held.
+    // Key releases are processed even while text is typed, so that no key stays held.
     bool* held = flyKey(flying_, event.code);
     const bool commands = (event.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) != 0;
     if (held != nullptr) *held = event.down && !claims.keyboard && !commands && !state.isAsking();
     if (!event.down || event.repeated) return;
-    // Keys that stand for words go by the letter on them, others by their place: W A S D.
+    // Keys that abbreviate words are identified by their letter, others by their position: W A S D.
     const int written = event.letter != 0 ? event.letter : event.code;
     if (state.question) {
         for (const AnswerChoice& choice : answersTo(state.question->about))

@@ -9,64 +9,64 @@
 
 namespace tessera::viewer {
 
-/// Lights that have a marker where all are marked, the scene's first: more would hide the picture, and take a frame to
-/// draw. The selected one always has one.
+/// Most lights with a marker when all are marked, in the order of the scene: more would hide the image and take a frame
+/// to draw. The selected light always has one.
 inline constexpr std::size_t kMostMarkers = 4096;
-/// Lights that are selected beside the one that has handles, and show their outlines.
+/// Most selected lights whose outlines are shown, besides the one with handles.
 inline constexpr std::size_t kMostFigures = 64;
 
-/// Where the picture is in the window, screen coordinates from the upper left.
+/// The viewport: the image's place in the window, in screen coordinates from the upper left.
 struct PictureArea {
     glm::vec2 corner{0.0f};
     glm::vec2 size{0.0f};
-    float scale = 1.0f; ///< of lengths in it, for one on a display of usual density
+    float scale = 1.0f; ///< of lengths in it; 1 on a display of standard density
     bool contains(const glm::vec2& point) const;
 };
 
-/// The part of the picture's place that shows a side: what lies left or right of the divider, or all.
+/// The part of the viewport that shows a side: left or right of the divider, or all of it.
 PictureArea partOf(const State& state, const PictureArea& area, int side);
 
-/// The place of the picture, a share of its size, that is shown at a point of the window, and back.
+/// Converts a point of the window to an image position, a fraction of the image size, and back.
 glm::vec2 placeAt(const State& state, const PictureArea& area, const glm::vec2& point);
 glm::vec2 pointOf(const State& state, const PictureArea& area, const glm::vec2& place);
 
-/// What the picture of an open scene shows where, from its upper left in screen coordinates. The area is not empty.
+/// Maps an open scene to the viewport, in screen coordinates from its upper left. The area must not be empty.
 PictureView viewOf(const State& state, const PictureArea& area);
 
-/// Outline and handles of the selected light; none where no light is selected, there is no picture, or it is magnified.
+/// Outline and handles of the selected light; none without a selected light or an image, or if it is magnified.
 std::optional<LightFigure> selectedFigure(const State& state, const PictureArea& area);
 
-/// Its handle that a press at a point of the window takes; its marker is taken before one that is no nearer.
+/// Its handle that a press at a point of the window grabs; its marker wins if the handle is not closer.
 std::optional<LightHandle> handleUnder(const State& state, const PictureArea& area, const glm::vec2& point);
 
-/// Where a light is marked.
+/// The marker of a light.
 struct LightMarker {
     int light = scenes::kNone;
-    glm::dvec2 place{0.0}; ///< in the picture
-    bool isSun = false;    ///< of a directional light, which has no place in the scene: at the picture's right side
+    glm::dvec2 place{0.0}; ///< in the viewport
+    bool isSun = false;    ///< of a directional light, which has no position: at the viewport's right edge
 };
 
-/// The markers of an open scene in a picture that is not empty: of the selected lights, then, where the state says so,
-/// of all others up to kMostMarkers; none where it is magnified. Suns only where all are marked: one below the other,
-/// as many as there is room for.
+/// The markers of an open scene in a viewport that is not empty: of the selected lights, then, if State::showsMarkers,
+/// of all others up to kMostMarkers; none if it is magnified. Suns only if all are marked: one below the other, as many
+/// as fit.
 std::vector<LightMarker> lightMarkers(const State& state, const PictureArea& area);
 
-/// The figures of the other lights that are selected, up to kMostFigures.
+/// The figures of the other selected lights, up to kMostFigures.
 std::vector<LightFigure> otherFigures(const State& state, const PictureArea& area);
 
-/// Whether a press at a point of the window takes the divider between two pictures side by side.
+/// Whether a press at a point of the window grabs the divider of a split comparison.
 bool isAtDivider(const State& state, const PictureArea& area, const glm::vec2& point);
 
-/// Whether a press at a point of the window takes the edge of the panels, which lies in the picture.
+/// Whether a press at a point of the window grabs the edge of the panels, which lies inside the viewport.
 bool isAtPanelEdge(const State& state, const PictureArea& area, const glm::vec2& point);
 
-/// Turns the user's input on the picture into movements of the camera and changes of the state.
+/// Converts user input on the image into camera movements and state changes.
 class Controls {
 public:
-    /// Input that belongs to widgets and not to the picture.
+    /// Input that belongs to widgets instead of the image.
     struct Claims {
-        bool mouse = false;    ///< the pointer is at a panel
-        bool keyboard = false; ///< text is typed
+        bool mouse = false;    ///< the pointer is over a panel
+        bool keyboard = false; ///< text is being typed
     };
     void handle(std::span<const InputEvent> events, State& state, const PictureArea& area, const Claims& claims);
 
@@ -83,7 +83,7 @@ private:
     void endDrag(State& state);
 
     Drag drag_ = Drag::None;
-    int button_ = 0; ///< that began the drag
+    int button_ = 0; ///< that started the drag
     glm::vec2 pointer_{0.0f};
     glm::vec2 pressedAt_{0.0f};
     struct Click {

@@ -18,7 +18,7 @@ std::string viewName(const Look& look, const std::vector<scenes::Light>* lights)
 }
 
 std::string viewMeaning(frame::DebugView view, bool isLit) {
-    // The viewer chooses the light itself, and the picture's title names it.
+    // The viewer selects the light itself, and the image's title names it.
     const char* const light = isLit ? "; the panel Lights selects another" : "; no light is on";
     switch (view) {
     case frame::DebugView::Distribution:
@@ -54,7 +54,7 @@ Look drawnLook(const State& state, int side) {
     if (state.selectedLight != scenes::kNone && selected < lights.size() && lights[selected].enabled) {
         look.settings.soloLight = state.selectedLight;
     } else {
-        const CameraPose& home = state.open->rig().home(); // not where it is now: the light would change on the way
+        const CameraPose& home = state.open->rig().home(); // not the current pose: moving would change the light
         look.settings.soloLight = brightestAt(lights, home.eyeWS + home.focusMetres * home.heading.forwardWS(), 0.0);
     }
     return look;
@@ -68,9 +68,9 @@ std::array<std::string, 2> sideNames(const Look& left, const Look& right, const 
     const std::array<const Look*, 2> looks{&left, &right};
     std::array<std::string, 2> names, others;
     for (const engine::Setting& setting : engine::settingTable()) {
-        const bool isNamed = setting.key == "technique" || setting.key == "view"; // below
+        const bool isNamed = setting.key == "technique" || setting.key == "view"; // handled below
         if (isNamed || setting.isShared || setting.value.equal(left, right)) continue;
-        if (std::holds_alternative<engine::SizeKind>(setting.value.kind)) continue; // of pictures that are on their way
+        if (std::holds_alternative<engine::SizeKind>(setting.value.kind)) continue; // of pending images
         for (std::size_t side : {0u, 1u})
             if (setting.isHeededBy(looks[side]->technique))
                 others[side] += fmt::format(", {} {}", setting.name, setting.text(*looks[side]));

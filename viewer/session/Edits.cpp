@@ -10,14 +10,14 @@ namespace {
 using scenes::Light;
 using scenes::Material;
 
-/// The first row that holds says what was done.
+/// The first row that holds describes the change.
 template <typename Element>
 struct ChangeVerb {
     const char* verb;
     bool (*holds)(const Element& before, const Element& after);
 };
 
-/// A light that is moved takes its path along (placeLight()).
+/// Whether the light stays in place: moving a light also moves its path (placeLight()).
 bool isInPlace(const Light& before, const Light& after) {
     return before.positionWS == after.positionWS;
 }
@@ -34,7 +34,7 @@ constexpr ChangeVerb<Light> kLightVerbs[] = {
     {"change keyframes of",
      [](const Light& a, const Light& b) {
          const bool areKeyed = a.animation && b.animation && a.animation->kind == b.animation->kind;
-         if (a.directionWS != b.directionWS) return false; // turned by hand, which ends keys
+         if (a.directionWS != b.directionWS) return false; // turned by hand, which removes direction keys
          return a.keyframes != b.keyframes || (areKeyed && isInPlace(a, b) && a.animation->keys != b.animation->keys);
      }},
     {"change path of",

@@ -8,20 +8,20 @@
 #include "viewer/session/SeenEnvironment.h"
 #include "viewer/session/ShownCamera.h"
 
-/// What can be undone. An edit holds what the scene does not have now: before an edit is undone that is what was there
-/// before, afterwards what it made. Undoing and redoing are the same exchange.
+/// Undoable edits. An edit holds the values that the scene does not have: the previous ones until it is undone, then
+/// the edited ones. Undo and redo are the same exchange.
 namespace tessera::viewer {
 
-/// Of neighbouring lights: `others` come in the place of `count` lights from `first` on.
+/// Replaces `count` neighbouring lights from `first` on by `others`.
 struct LightsEdit {
     std::size_t first = 0, count = 0;
     Lights others;
-    scenes::LightLinks links = {}; ///< which of the lights clips move with them
+    scenes::LightLinks links = {}; ///< which of the lights clips animate, exchanged with them
 };
 
 struct MaterialEdit {
     std::size_t index = 0;
-    scenes::Material other; ///< with numbers at rest that clips change
+    scenes::Material other; ///< animated numbers have their rest values
 };
 
 /// A parameter of the scene's hook.
@@ -34,8 +34,8 @@ struct EnvironmentEdit {
     Surrounding other;
 };
 
-/// How the environment lies and shines: its own numbers, which change only where a file takes the view's over
-/// (OpenScene::becomes()), and how the view turns and brightens it.
+/// Rotation and intensity of the environment: its own, which change only when a saved file adopts the view's
+/// (OpenScene::becomes()), and those that the view applies to it.
 struct EnvironmentViewEdit {
     scenes::EnvironmentView own, view;
 };
@@ -44,7 +44,7 @@ struct CameraEdit {
     CameraView other;
 };
 
-/// Of all stored viewpoints.
+/// All stored viewpoints.
 struct ViewpointsEdit {
     std::vector<scenes::Camera> others;
 };
@@ -52,19 +52,19 @@ struct ViewpointsEdit {
 using Edit =
     std::variant<LightsEdit, MaterialEdit, HookEdit, EnvironmentEdit, EnvironmentViewEdit, CameraEdit, ViewpointsEdit>;
 
-/// Movements of the camera are no edits of the scene: nothing of it is lost with them.
+/// Camera movements are not edits of the scene: no work is lost with them.
 inline bool changesScene(const Edit& edit) {
     return !std::holds_alternative<CameraEdit>(edit);
 }
 
-/// Whether two edits are of the same lights, material or parameter, of how the environment lies and shines, or of where
-/// the camera is, so that one drag can make one of them.
+/// Whether two edits change the same lights, material, parameter, environment view or camera, so that one drag can
+/// merge them.
 bool areOfOneElement(const Edit& first, const Edit& second);
 
-/// What was done to a light, a material or the environment, as the user is told: "move light 'lamp 3'". The label is
-/// how lists call it.
+/// Describes a change of a light, a material or the environment for the user: "move light 'lamp 3'". `label` is its
+/// name in lists.
 std::string changeText(const scenes::Light& before, const scenes::Light& after, const std::string& label);
-/// The same of several, of which this is one: "move 3 lights".
+/// The same for several lights, one of which is given: "move 3 lights".
 std::string changeText(const scenes::Light& before, const scenes::Light& after, std::size_t count);
 std::string changeText(const scenes::Material& before, const scenes::Material& after, const std::string& label);
 std::string changeText(const scenes::EnvironmentView& before, const scenes::EnvironmentView& after);

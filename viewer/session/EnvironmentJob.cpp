@@ -12,7 +12,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// `isOver` is asked while it is computed and filtered, from any thread; once it holds the result is of no use.
+/// `isOver` is polled during computation and filtering, from any thread. Once it holds, the result is useless.
 ChosenEnvironment loaded(const std::string& name, EnvironmentProgress& progress, const std::function<bool()>& isOver) {
     const auto tell = [&](bool isFiltering, double done) {
         if (isOver()) throw scenes::LoadStopped();
@@ -52,7 +52,7 @@ void EnvironmentJob::start(const std::string& name) {
     {
         const std::lock_guard lock(mutex_);
         choose(name);
-        if (std::exchange(isBusy_, true)) return; // its thread goes on with this one
+        if (std::exchange(isBusy_, true)) return; // the running thread continues with this one
     }
     thread_ = std::jthread([this] { load(); });
 }

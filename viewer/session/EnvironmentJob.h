@@ -15,51 +15,51 @@
 
 namespace tessera::viewer {
 
-/// An environment that was chosen, ready to light a scene.
+/// A chosen environment, ready to light a scene.
 struct ChosenEnvironment {
-    std::string name;                               ///< as --environment takes it
-    std::optional<scenes::Environment> environment; ///< none: the scene has none from now on
+    std::string name;                               ///< as given to --environment
+    std::optional<scenes::Environment> environment; ///< none: removes the scene's environment
     std::shared_ptr<const frame::FilteredEnvironment> filtered;
     std::vector<std::string> warnings;
-    std::string error; ///< not empty: it could not be loaded, and the scene keeps its own
+    std::string error; ///< not empty: loading failed, and the scene keeps its environment
 };
 
-/// Loads and filters environments in the background, one at a time; of several choices the latest counts.
+/// Loads and filters environments in the background, one at a time; the latest choice replaces earlier ones.
 class EnvironmentJob {
 public:
-    /// `done` is called on the loading thread when a result waits.
+    /// `done` is called on the loading thread when a result is ready.
     explicit EnvironmentJob(std::function<void()> done) : done_(std::move(done)) {}
     EnvironmentJob(const EnvironmentJob&) = delete;
     EnvironmentJob& operator=(const EnvironmentJob&) = delete;
 
-    /// Gives what is computed or filtered up. A file that is being read is waited for.
+    /// Aborts computation and filtering. Waits for a file that is being read.
     ~EnvironmentJob();
 
-    /// Chooses an environment in the place of what was chosen before, which is given up as above.
+    /// Chooses an environment. The previous choice is aborted as above.
     void start(const std::string& name);
-    /// Drops what was chosen, likewise.
+    /// Aborts the current choice likewise.
     void discard();
-    /// What was chosen and not taken yet; empty: nothing.
+    /// The choice whose result has not been taken; empty: none.
     std::string choice() const;
-    /// How far it is; none where it is being read, or kept from an earlier time.
+    /// Its progress; none while a file is read, or if the result is cached.
     std::optional<EnvironmentShare> share() const;
     bool hasResult() const;
     /// The result of the latest choice, once.
     std::optional<ChosenEnvironment> take();
 
 private:
-    void choose(const std::string& name); ///< the caller holds the mutex
+    void choose(const std::string& name); ///< requires the mutex
     void load();
 
     std::function<void()> done_;
     mutable std::mutex mutex_;
     EnvironmentProgress progress_;
     bool isBusy_ = false;
-    std::atomic<std::uint64_t> generation_ = 0; ///< of the choice; changed by who holds the mutex
-    std::uint64_t loading_ = 0;                 ///< the one under way, of which `progress_` tells
+    std::atomic<std::uint64_t> generation_ = 0; ///< counts choices; changed under the mutex
+    std::uint64_t loading_ = 0;                 ///< the generation being loaded, as in `progress_`
     std::string choice_;
     std::optional<ChosenEnvironment> result_;
-    std::jthread thread_; ///< last: it ends before what it writes to
+    std::jthread thread_; ///< declared last: it ends before the members it writes to
 };
 
 } // namespace tessera::viewer

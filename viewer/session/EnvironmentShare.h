@@ -4,25 +4,25 @@
 
 namespace tessera::viewer {
 
-/// How far a thread is with an environment: first its map is computed, unless it is a file's, then that is filtered.
+/// Progress of preparing an environment: first its map is computed, unless it comes from a file, then it is filtered.
 struct EnvironmentShare {
-    bool isFiltering = false; ///< else its map is computed
+    bool isFiltering = false; ///< else the map is being computed
     double done = 0.0;        ///< 0 to 1
     bool operator==(const EnvironmentShare&) const = default;
 };
 
-/// The latest, as other threads read it.
+/// The latest progress, readable from other threads.
 class EnvironmentProgress {
 public:
     void begin() { told_ = kNothing; }
-    /// Raises it to what one of several threads tells; what is told last need not be the most.
+    /// Raises the progress to the reported value. Reports of several threads may arrive out of order.
     void tell(const EnvironmentShare& share) {
         const double told = share.done + (share.isFiltering ? kFiltering : 0.0);
         double known = told_;
         while (told > known && !told_.compare_exchange_weak(known, told)) {
         }
     }
-    /// None where neither is done.
+    /// None if neither has begun.
     std::optional<EnvironmentShare> latest() const {
         const double told = told_;
         if (told < 0.0) return std::nullopt;
@@ -32,7 +32,7 @@ public:
 
 private:
     static constexpr double kNothing = -1.0;
-    static constexpr double kFiltering = 2.0; ///< added to shares of filtering, above all of computing
+    static constexpr double kFiltering = 2.0; ///< added to filtering progress, to exceed all computation progress
     std::atomic<double> told_ = kNothing;
 };
 

@@ -9,8 +9,8 @@
 namespace tessera::viewer {
 void EventLog::line(const std::string& text) const {
     if (!on_) return;
-    fmt::print("{}\n", oneLine(text, text.max_size())); // whole: it holds commands to be run
-    std::fflush(stdout);                                // a program that drives the viewer acts on each line
+    fmt::print("{}\n", oneLine(text, text.max_size())); // untruncated: it may be a command to be run
+    std::fflush(stdout);                                // programs that drive the viewer act on each line
 }
 
 } // namespace tessera::viewer

@@ -3,11 +3,11 @@
 
 namespace tessera::viewer {
 
-/// The viewer's events, a line each on stdout, for programs that drive it; silent by default.
+/// The viewer's events, one line each on stdout, for programs that drive it; off by default.
 class EventLog {
 public:
     explicit EventLog(bool on) : on_(on) {}
-    /// A text of several lines, such as a shader compiler's log, becomes one line.
+    /// Joins the lines of a text, such as a shader compiler's log, into one line.
     void line(const std::string& text) const;
 
 private:

@@ -12,7 +12,7 @@ namespace {
 // The private use area. Source: The Unicode Standard, section 23.5.
 constexpr std::size_t kFirstPrivate = 0xe000, kPrivateLetters = 6400;
 
-/// In UTF-8, which has three bytes there.
+/// In UTF-8, three bytes each.
 std::string privateLetter(std::size_t number) {
     const std::size_t letter = kFirstPrivate + number;
     return {char(0xe0 | (letter >> 12)), char(0x80 | ((letter >> 6) & 0x3f)), char(0x80 | (letter & 0x3f))};
@@ -28,7 +28,7 @@ std::optional<std::size_t> privateNumber(std::string_view letter) {
     return value - kFirstPrivate;
 }
 
-/// The letter that a text begins with, or its first byte, which is none.
+/// The first character of a text; its first byte if it is invalid UTF-8.
 std::string_view firstLetter(std::string_view text) {
     return text.substr(0, std::max<std::size_t>(letterBytes(text), 1));
 }

@@ -5,17 +5,17 @@
 
 namespace tessera::viewer {
 
-/// Names of files have letters that a text field cannot hold: beyond 16 bits, control characters, and bytes that are no
-/// UTF-8. Letters of Unicode's private use area stand for them in the field, and come back as what they stand for.
+/// Converts file names for text fields, which cannot hold characters beyond 16 bits, control characters or invalid
+/// UTF-8. Characters of Unicode's private use area replace these in the field, and are converted back.
 class FieldLetters {
 public:
-    /// A text as a field holds it.
+    /// Converts a text for a field.
     std::string inField(std::string_view text);
-    /// The text that a field holds.
+    /// Converts the text of a field back.
     std::string fromField(std::string_view held) const;
 
 private:
-    std::vector<std::string> letters_; ///< what private letters stand for, from the first one on
+    std::vector<std::string> letters_; ///< the replaced texts, by private-use character from the first on
 };
 
 } // namespace tessera::viewer

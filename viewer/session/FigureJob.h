@@ -10,20 +10,20 @@
 
 namespace tessera::viewer {
 
-/// Measures pairs of pictures in the background, one at a time: the figures take longer than a frame may.
+/// Measures pairs of images in the background, one at a time: the error figures take longer than a frame.
 class FigureJob {
 public:
-    /// `done` is called on the measuring thread when figures wait.
+    /// `done` is called on the measuring thread when figures are ready.
     explicit FigureJob(std::function<void()> done) : done_(std::move(done)) {}
     FigureJob(const FigureJob&) = delete;
     FigureJob& operator=(const FigureJob&) = delete;
 
-    /// Whether a pair can be taken; a measurement cannot be given up, so the next pair waits for its end.
+    /// Whether a pair is being measured. A measurement cannot be aborted, so the next pair waits for its end.
     bool isBusy() const { return busy_; }
-    /// Picture a against the truth b, of one size.
+    /// Measures image a against the reference b, of the same size.
     void start(Picture a, Picture b);
     bool hasResult() const;
-    /// The latest figures, once. Rethrows an exception of the measurement, such as std::bad_alloc.
+    /// Returns the latest figures, once. Rethrows an exception of the measurement, such as std::bad_alloc.
     std::optional<validation::ErrorFigures> take();
 
 private:

@@ -24,14 +24,14 @@ bool isSeparator(char c) {
     return c == '/' || c == char(Path::preferred_separator);
 }
 
-/// Length of a text up to and with its last separator.
+/// Length of a text up to and including its last separator.
 std::size_t folderPart(const std::string& text) {
     std::size_t end = text.size();
     while (end > 0 && !isSeparator(text[end - 1])) --end;
     return end;
 }
 
-/// Small letters of A to Z: other letters mean themselves, as in file systems that tell them apart.
+/// Converts A to Z to lower case. Other letters stay distinct, as in file systems.
 std::string folded(std::string text) {
     for (char& c : text)
         if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
@@ -59,7 +59,7 @@ bool isThere(const Path& place) {
     return std::filesystem::exists(std::filesystem::symlink_status(place, error));
 }
 
-/// Without "." and "..", and without a separator at the end.
+/// An absolute path without ".", ".." and a trailing separator.
 Path tidy(const Path& folder) {
     std::error_code error;
     Path tidied = std::filesystem::absolute(folder, error).lexically_normal();
@@ -75,8 +75,8 @@ std::string savedEndings() {
     return fmt::format("{}", fmt::join(endings, ", "));
 }
 
-/// Without files whose names begin with a dot, unless asked for; throws filesystem_error. A folder may hold a hundred
-/// thousand, and is read with every letter that is typed.
+/// Entries whose names begin with `begin`, without hidden files if it is empty. Throws filesystem_error. A folder may
+/// hold a hundred thousand files, and is read at every typed letter.
 std::vector<FileEntry> entriesOf(const Path& folder, const std::string& begin, FileDialog::Purpose purpose) {
     struct Found {
         FileEntry entry;
@@ -87,7 +87,7 @@ std::vector<FileEntry> entriesOf(const Path& folder, const std::string& begin, F
         std::string name = found.path().filename().string();
         if (!beginsWith(name, begin) || (name.starts_with('.') && begin.empty())) continue;
         std::error_code error;
-        const bool isFolder = found.is_directory(error); // the system has said it already, but of links
+        const bool isFolder = found.is_directory(error); // no further system call, except for links
         if (!isFolder && !isOffered(found.path(), purpose)) continue;
         std::string small = folded(name);
         all.push_back({{std::move(name), isFolder}, std::move(small)});
@@ -153,7 +153,7 @@ void FileDialog::type(const std::string& text) {
 void FileDialog::step(int lines) {
     if (entries_.empty()) return;
     const int count = int(entries_.size());
-    // Below a folder that is typed, the first line is what it holds.
+    // In a typed folder, the first step skips "..".
     const bool skipsAbove = purpose_ == Purpose::Open && !text_.empty() && count > 1 && entries_.front().name == kAbove;
     const int from = chosen_ ? int(*chosen_) : lines < 0 ? count : skipsAbove ? 0 : -1;
     choose(std::size_t(std::clamp(from + lines, 0, count - 1)));
@@ -173,7 +173,7 @@ void FileDialog::complete() {
     bool isFolder = false;
     for (const FileEntry& entry : entries_) {
         if (entry.name == kAbove || !beginsWith(entry.name, begin)) continue;
-        isFolder = !common && entry.isFolder; // of several nobody knows
+        isFolder = !common && entry.isFolder; // only if a single name matches
         if (!common) common = entry.name;
         const std::string one = folded(*common), other = folded(entry.name);
         const auto ends = std::ranges::mismatch(one, other);
@@ -213,7 +213,7 @@ std::optional<std::string> FileDialog::accept(bool replaces) {
         return std::nullopt;
     }
     if (purpose_ == Purpose::Open) return place.string();
-    // The name of a file that is there: it still has to be replaced.
+    // The name of an existing file: replacing it still has to be confirmed.
     type(text_.substr(0, folderPart(text_)) + entry.name);
     isChosenByHand_ = false;
     return acceptText(replaces);

@@ -37,7 +37,7 @@ const FileType* fileTypeOf(const std::filesystem::path& file) {
 }
 
 Dropped takeDropped(std::span<const std::string> files) {
-    constexpr std::size_t kMostNamed = 3; // of the others: a folder's files may be dropped
+    constexpr std::size_t kMostNamed = 3; // of the other files: a whole folder may be dropped
     assert(!files.empty());
     auto taken = std::ranges::find_if(files, [](const std::string& file) {
         const FileType* const type = fileTypeOf(file);

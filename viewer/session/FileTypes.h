@@ -7,27 +7,27 @@
 
 namespace tessera::viewer {
 
-/// What the viewer opens and saves, by the ends of names: the one list that dialog, drops and messages follow.
+/// File types that the viewer opens and saves, by extension: the one table for the dialog, drops and messages.
 struct FileType {
     enum class Opens : std::uint8_t { Nothing, Scene, Environment };
     enum class Saves : std::uint8_t { Nothing, Scene, Display, Radiance };
     std::string_view extension; ///< ".png"
     Opens opens = Opens::Nothing;
     Saves saves = Saves::Nothing;
-    std::string_view meaning; ///< of what is saved, else of what is opened
+    std::string_view meaning; ///< of the saved content, else of the opened content
 };
 std::span<const FileType> fileTypes();
 
-/// That of a name; null where the viewer neither opens nor saves any such file.
+/// The type of a file name; null if the viewer neither opens nor saves it.
 const FileType* fileTypeOf(const std::filesystem::path& file);
 
-/// Files that were dropped at once.
+/// Files that were dropped together.
 struct Dropped {
-    std::string taken; ///< opens
-    std::string left;  ///< what the user is told of the others, a line; empty: there are none
+    std::string taken; ///< to be opened
+    std::string left;  ///< message about the others, one line; empty: none
 };
-/// Takes the first that opens as a scene or an environment; where none does the first, of which loading tells why. At
-/// least one file.
+/// Takes the first file that opens as a scene or an environment, else the first file, whose load then fails with the
+/// reason. Requires at least one file.
 Dropped takeDropped(std::span<const std::string> files);
 
 } // namespace tessera::viewer

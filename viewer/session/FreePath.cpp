@@ -14,17 +14,17 @@ namespace tessera::viewer {
 namespace {
 
 constexpr int kMostNumbers = 100000;
-constexpr std::size_t kLongestStem = 120; ///< file systems end names at 255 bytes, of which some are ours
+constexpr std::size_t kLongestStem = 120; ///< file systems limit names to 255 bytes, including our additions
 
-/// Whether a letter beyond ASCII shows nothing, or turns those after it round: C1 controls, and U+2000 to U+206F, where
-/// spaces, ends of lines and marks of direction are.
+/// Whether a non-ASCII character is invisible or changes the direction of the text: C1 controls and U+00A0, and U+2000
+/// to U+206F with spaces, line ends and direction marks.
 bool isUnseen(std::string_view letter) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(letter[i]); };
     return (letter.size() == 2 && byte(0) == 0xc2 && byte(1) <= 0xa0) ||
            (letter.size() == 3 && byte(0) == 0xe2 && (byte(1) == 0x80 || byte(1) == 0x81));
 }
 
-/// Letters beyond ASCII stay, as long as they are whole letters of UTF-8.
+/// Keeps visible non-ASCII characters that are valid UTF-8.
 std::string plain(std::string_view stem) {
     stem = beginningOf(stem, kLongestStem);
     std::string name;

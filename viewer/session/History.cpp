@@ -47,7 +47,7 @@ const Edit* History::redo(const Exchange& exchange) {
 }
 
 void History::markSaved() {
-    endGesture(); // what the same gesture goes on to do is not saved
+    endGesture(); // later edits of the same gesture are not saved
     saved_ = version();
 }
 

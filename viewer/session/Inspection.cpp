@@ -34,7 +34,7 @@ void addSide(std::vector<std::string>& lines, const InspectedSide& side) {
 } // namespace
 
 glm::ivec2 pixelAt(const glm::vec2& place, glm::ivec2 sizePixels) {
-    constexpr float kRounding = 1e-3f; // of a pixel: a share of the size and back must not end in the one before
+    constexpr float kRounding = 1e-3f; // of a pixel: a fraction of the size must not round to the pixel before
     const glm::ivec2 pixel(glm::floor(place * glm::vec2(sizePixels) + kRounding));
     return glm::clamp(pixel, glm::ivec2(0), sizePixels - 1);
 }

@@ -25,7 +25,7 @@ void showNumbered(State& state, int number) {
     state.active() = possible(state.active());
 }
 
-/// The technique `step` places on in the table, around its end.
+/// Selects the technique `step` places on in the table, wrapping around.
 void stepTechnique(State& state, int step) {
     const int count = int(engine::techniqueTable().size());
     Look& look = state.active();

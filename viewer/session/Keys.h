@@ -5,27 +5,27 @@
 
 namespace tessera::viewer {
 
-/// A key and what it does: the one list that keyboard and help follow.
+/// A key and its action: the one table for the keyboard and the help.
 struct KeyBinding {
     int key;          ///< GLFW_KEY_*
-    int modifiers;    ///< GLFW_MOD_SHIFT and GLFW_MOD_CONTROL that must be held
+    int modifiers;    ///< GLFW_MOD_SHIFT and GLFW_MOD_CONTROL that must be held, and no others
     const char* name; ///< as on the keyboard: "Ctrl+S"
     const char* meaning;
     void (*act)(State&);
-    const char* group = nullptr; ///< of the help, which begins with this key
+    const char* group = nullptr; ///< of the help, beginning with this key
 };
 std::span<const KeyBinding> keyBindings();
 
-/// Views along the axes of the world, about what the camera turns about.
+/// Views along the world axes, about the orbit pivot.
 struct AxisView {
     const char* name;
     const char* meaning;
-    int key, padKey; ///< GLFW_KEY_*: with Ctrl, and that of the number pad
+    int key, padKey; ///< GLFW_KEY_*: with Ctrl, and on the number pad
     Heading heading;
 };
 std::span<const AxisView> axisViews();
 
-/// What the mouse does, and keys that are held; for the help.
+/// Mouse gestures and held keys, for the help.
 struct GestureHelp {
     const char* name;
     const char* meaning;

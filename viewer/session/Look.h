@@ -8,27 +8,26 @@
 
 namespace tessera::viewer {
 
-/// How a scene is looked at: the technique and all that a command line can ask of a frame.
+/// Settings of a view of a scene: the technique and all frame options of a command line.
 struct Look : engine::ViewRequest {
-    /// Requested values that the technique does not take, kept for another one that does: texts, by the settings' keys.
+    /// Requested values that the technique does not support, kept for one that does: texts, by setting key.
     std::map<std::string, std::string, std::less<>> aside;
     bool operator==(const Look&) const = default;
 };
 
-/// The look as its technique can do it: settings that it does not take are put aside and get their defaults, those put
-/// aside that it takes come back, and a view that it cannot show becomes the lit picture. A look that is possible stays
-/// as it is.
+/// Adapts a look to its technique: unsupported settings are put aside and reset, those put aside are restored if
+/// supported, and an unsupported view becomes the lit image. A look that is possible stays unchanged.
 Look possible(Look look);
 
-/// The look as requested, with values that its technique does not take.
+/// The look as requested, with values that its technique does not support.
 Look asked(Look look);
 
-/// How a look turns and brightens the scene's environment, which is an edit of the scene: OpenScene::environmentView().
+/// How a look rotates and scales the scene's environment, which is an edit of the scene: OpenScene::environmentView().
 scenes::EnvironmentView environmentSeenBy(const Look& look);
 void setEnvironmentSeenBy(Look& look, const scenes::EnvironmentView& view);
 
-/// What was changed between `before` and `now`, made to `base`: choices of the user outlive a scene that wishes
-/// otherwise.
+/// Applies the changes between `before` and `now` to `base`: user choices take precedence over the options that a scene
+/// requests.
 Look rebased(const Look& now, const Look& before, const Look& base);
 
 } // namespace tessera::viewer

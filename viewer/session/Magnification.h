@@ -3,19 +3,19 @@
 
 namespace tessera::viewer {
 
-/// How large the window shows the picture's pixels: a part of the picture fills its place.
+/// Magnification of the image: a part of it fills the viewport.
 struct Magnification {
     static constexpr int kMost = 64;
-    int times = 1;          ///< a power of two; 1: all of it is shown
-    glm::vec2 corner{0.0f}; ///< of that part, a share of the picture's size from the upper left
+    int times = 1;          ///< a power of two; 1: all of the image is shown
+    glm::vec2 corner{0.0f}; ///< of that part, a fraction of the image size from the upper left
 
     bool isOn() const { return times > 1; }
-    /// The place of the picture that is shown at a share of the window's part, and back.
+    /// Converts a fraction of the viewport to the image position shown there, and back.
     glm::vec2 placeAt(const glm::vec2& share) const { return corner + share / float(times); }
     glm::vec2 shareOf(const glm::vec2& place) const { return (place - corner) * float(times); }
-    /// Doubles or halves it so often; the pixel at a share stays there.
+    /// Doubles or halves it once per step; the pixel at the position `share` stays there.
     void zoom(int steps, const glm::vec2& share);
-    /// Moves the picture by a share of the window's part.
+    /// Pans the image by a fraction of the viewport.
     void pan(const glm::vec2& share);
 };
 

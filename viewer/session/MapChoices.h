@@ -6,18 +6,18 @@
 
 namespace tessera::viewer {
 
-/// An environment to choose.
+/// An environment map to choose.
 struct MapChoice {
-    std::string name;   ///< as --environment takes it
-    std::string source; ///< of the scene's environment where this is it (scenes::Environment::source); empty: none
-    std::string label;  ///< as lists call it
+    std::string name;   ///< as given to --environment
+    std::string source; ///< scenes::Environment::source of a scene that uses it; empty: none
+    std::string label;  ///< name in lists
     std::string meaning;
 };
 
-/// None, the built-in ones, and files that were used since the program's start, the latest first.
+/// None, the built-in maps, and files used since the program started, the latest first.
 std::vector<MapChoice> mapChoices(const State& state);
 
-/// The environment of a scene, where it is a file's, comes first among those that were used (State::maps).
+/// Moves a scene's environment, if it comes from a file, to the front of the used ones (State::maps).
 void noteMap(std::vector<std::string>& maps, const scenes::Scene& scene);
 
 } // namespace tessera::viewer

@@ -30,7 +30,7 @@ bool OpenScene::showTime(double timeSeconds) {
     timeSeconds = std::min(timeSeconds, clipSeconds_);
     if (!scenes::isPlaying(scene_) || timeSeconds == askedSeconds_) return false;
     askedSeconds_ = timeSeconds;
-    if (timeSeconds == shownSeconds_) return false; // after one that was refused
+    if (timeSeconds == shownSeconds_) return false; // after a refused pose
     try {
         pose(timeSeconds);
     } catch (...) {
@@ -72,7 +72,7 @@ void OpenScene::playClip(const std::string& nameOrNumber) {
 }
 
 void OpenScene::pose(double timeSeconds) {
-    shown_.giveBack(); // clips change the scene's own, not the user's
+    shown_.giveBack(); // clips animate the scene's camera, not the user's
     scenes::poseScene(scene_, timeSeconds);
     shown_.takeUp();
 }
@@ -174,7 +174,7 @@ void OpenScene::changeLight(std::size_t index, scenes::Light changed, Gesture ge
 void OpenScene::changeLights(const std::map<std::size_t, scenes::Light>& changed, Gesture gesture) {
     const Lights& lights = scene_.lights;
     if (std::ranges::all_of(changed, [&](const auto& one) { return one.second == lights[one.first]; })) return;
-    // Of all lights from the first that changes to the last.
+    // Covers all lights from the first changed one to the last.
     const std::size_t first = changed.begin()->first, count = changed.rbegin()->first + 1 - first;
     const std::span<const scenes::Light> now = std::span(lights).subspan(first, count);
     LightsEdit edit{first, count, Lights(now.begin(), now.end())};
@@ -183,7 +183,7 @@ void OpenScene::changeLights(const std::map<std::size_t, scenes::Light>& changed
     const Edit* const begun = history_.continued(edit, gesture);
     const std::span<const scenes::Light> before = begun != nullptr ? std::get<LightsEdit>(*begun).others : now;
     const auto differing = std::ranges::mismatch(before, edit.others);
-    const bool isAny = differing.in1 != before.end(); // a drag may have come back to where it began
+    const bool isAny = differing.in1 != before.end(); // a drag may have returned to its start
     const scenes::Light& was = isAny ? *differing.in1 : before.front();
     const scenes::Light& is = isAny ? *differing.in2 : edit.others.front();
     std::string what =
@@ -216,7 +216,7 @@ void OpenScene::replaceLights(std::string what, std::size_t first, std::size_t c
 }
 
 void OpenScene::deleteLights(std::string what, std::span<const std::size_t> indices) {
-    // One step, of the lights from the first that goes to the last, in whose place those come that stay.
+    // One step: replaces the lights from the first to the last deleted one by those that are kept.
     const std::size_t first = indices.front(), end = indices.back() + 1;
     Lights kept;
     for (std::size_t i = first; i < end; ++i)
@@ -251,8 +251,8 @@ void OpenScene::step(std::ptrdiff_t steps) {
     for (; steps > 0; --steps) redo();
 }
 
-/// Whether a scene that was just loaded has what this one, as it is saved, has, as far as the history changes it or
-/// counts by it.
+/// Whether a scene that was just loaded matches this one, in its saved state, in everything that the history changes or
+/// indexes.
 bool OpenScene::isLike(const scenes::Scene& loaded) const {
     const auto isSameLight = [](const scenes::Light& one, const scenes::Light& other) {
         return one.name == other.name && one.type == other.type;
@@ -260,7 +260,7 @@ bool OpenScene::isLike(const scenes::Scene& loaded) const {
     const auto isSameParameter = [](const scenes::HookParameter& one, const scenes::HookParameter& other) {
         return one.name == other.name;
     };
-    // Edits of lights know by these which of them clips move.
+    // Edits of lights identify the lights that clips animate by these.
     const auto isSameNumber = [](const scenes::RestNumber& one, const scenes::RestNumber& other) {
         return one.property == other.property && one.element == other.element && one.slot == other.slot;
     };
@@ -295,7 +295,7 @@ void OpenScene::goOnFrom(OpenScene& other) {
     history_ = std::exchange(other.history_, {});
     viewpoints_ = other.viewpoints_;
     shown_.removeLast(viewpoints_.size()); // the file has them as cameras
-    // Steps of the camera and of the environment's view exchange what the other began with.
+    // Steps of the camera and of the environment's view exchange values with the other scene's saved state.
     if (scene_.environment) {
         scenes::EnvironmentView own = scenes::ownViewOf(*scene_.environment), view = other.environmentView();
         environment_.exchange(own, view);
@@ -321,7 +321,7 @@ void OpenScene::exchange(Edit& edit) {
     if (changesScene(edit)) ++edits_;
 }
 
-/// Whether the picture is another one after it: names of lights and stored viewpoints are not seen.
+/// Whether the edit changes the image; names of lights and stored viewpoints do not.
 bool OpenScene::isSeen(const Edit& edit) const {
     if (std::holds_alternative<ViewpointsEdit>(edit)) return false;
     const auto* const lights = std::get_if<LightsEdit>(&edit);
@@ -364,13 +364,13 @@ void OpenScene::exchange(HookEdit& edit) {
 // ---- The file ----
 
 void OpenScene::becomes(const std::string& file) {
-    scene_.supplied = {}; // the file has it
+    scene_.supplied = {}; // the file contains what was supplied
     history_.forEach([](Edit& edit) {
         if (auto* const surrounding = std::get_if<EnvironmentEdit>(&edit)) surrounding->other.isSupplied = false;
     });
     if (scene_.environment) takeAsSeen();
     source_ = file;
-    scenes::LoadOptions load; // the file says the rest
+    scenes::LoadOptions load; // the file specifies the rest
     load.import = std::move(load_.import);
     load.import.variant.reset();
     load_ = std::move(load);
@@ -382,7 +382,7 @@ void OpenScene::becomes(const std::string& file) {
         if (auto* const lights = std::get_if<LightsEdit>(&edit)) lights->links = none;
         auto* const jump = std::get_if<CameraEdit>(&edit);
         if (jump == nullptr || jump->other.camera != camera()) return;
-        jump->other.placed = {}; // the file's camera is what it starts as now
+        jump->other.placed = {}; // the rig now starts with the file's camera
         jump->other.rig.startAt(rig().start(), rig().home());
     });
 }

@@ -8,9 +8,9 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr std::string_view kTimeKey = "time"; ///< of its setting (engine::settingTable())
+constexpr std::string_view kTimeKey = "time"; ///< key of its setting (engine::settingTable())
 
-/// Whether anything but a clip moves.
+/// Whether anything other than a clip moves.
 bool movesByItself(const OpenScene& open) {
     return open.scene().hook || std::ranges::any_of(open.scene().lights, scenes::movesByItself);
 }

@@ -3,25 +3,25 @@
 
 #include "viewer/session/State.h"
 
-/// How time goes on in a scene that moves: clips, lights and hooks all follow one time.
+/// Playback: clips, lights and hooks share one scene time.
 namespace tessera::viewer {
 
-constexpr float kSlowest = 0.1f, kFastest = 4.0f; ///< of State::speed
+constexpr float kSlowest = 0.1f, kFastest = 4.0f; ///< range of State::speed
 
-/// Whether anything of the scene moves with the time.
+/// Whether anything in the scene moves over time.
 bool canMove(const State& state);
-/// Whether anything moves now, as time goes on.
+/// Whether time advances and anything moves.
 bool plays(const State& state);
-/// Whether the picture changes by itself: something plays, or the camera is on its way.
+/// Whether the image changes by itself: the scene plays, or the camera moves.
 bool isMoving(const State& state);
-/// Lets time go on, or stops it. A clip that is over begins again.
+/// Starts or pauses the scene time. A clip that has ended starts again.
 void togglePlaying(State& state);
-/// So much of the clock's time is over. At its end a clip is repeated, with all else that moves, or comes to rest.
+/// Advances the scene time by clock time. At its end a clip repeats, with everything else that moves, or stops.
 void passTime(State& state, double clockSeconds);
-/// The options of a scene that is saved now: where something moves, it begins at the time that is shown.
+/// The options for saving the scene: if anything moves, the file begins at the displayed time.
 scenes::SceneOptions optionsToSave(const State& state);
-/// Plays a clip of the scene, as --clip takes it, from its beginning. Throws InputError where it moves something too
-/// far away; the clip before then stays.
+/// Plays a clip of the scene from its beginning, named as for --clip. Throws InputError if it moves something too far
+/// away; the previous clip then stays.
 void chooseClip(State& state, const std::string& nameOrNumber);
 
 } // namespace tessera::viewer

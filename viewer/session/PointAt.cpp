@@ -9,7 +9,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Of the scene's size: half a side of what is brought into view of a light that has no size.
+/// Half a side of the box framed for a light without a size, relative to the scene's size.
 constexpr double kLightShare = 0.02;
 
 std::optional<Pick> pickedAt(const State& state, const glm::vec2& place, glm::ivec2 sizePixels) {
@@ -25,7 +25,7 @@ std::string selectMaterialAt(State& state, const glm::vec2& place, glm::ivec2 si
     const auto picked = pickedAt(state, place, sizePixels);
     state.selectedMaterial = picked ? picked->material : scenes::kNone;
     state.selectedLast = Selected::Material;
-    if (picked) state.reveals = Selected::Material; // also where it was selected before, and its panel folded since
+    if (picked) state.reveals = Selected::Material; // even if already selected: its panel may be folded
     return picked ? state.open->scene().materials[std::size_t(picked->material)].name : "nothing";
 }
 

@@ -3,18 +3,18 @@
 
 #include "viewer/session/State.h"
 
-/// What the user points at in the picture, or has selected, of a scene that is open. Places are shares of the picture's
-/// size from its upper left.
+/// Picking and framing in an open scene, by image position or by selection. Positions are fractions of the image size
+/// from the upper left.
 namespace tessera::viewer {
 
-/// Selects the material of the surface at a place; its name, or "nothing".
+/// Selects the material of the surface at a position. Returns its name, or "nothing".
 std::string selectMaterialAt(State& state, const glm::vec2& place, glm::ivec2 sizePixels);
 
-/// Slides the orbit so that it turns about the surface at a place. Whether there is one.
+/// Pans the orbit so that it turns about the surface at a position. Returns whether there is one.
 bool turnAboutPlace(State& state, const glm::vec2& place, glm::ivec2 sizePixels);
 
-/// Brings what was selected last into view, a light or all that has a material; without a selection, and for lights
-/// without a place, all of the scene.
+/// Brings the last selection into view: a light, or everything that has a material; without a selection, and for lights
+/// without a position, the whole scene.
 void frameSelection(State& state);
 
 } // namespace tessera::viewer

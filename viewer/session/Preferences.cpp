@@ -47,7 +47,7 @@ std::optional<std::filesystem::path> configurationFolder() {
 #endif
 }
 
-/// What the file holds besides settings, by name. A visitor is called with a name and that member.
+/// Members of the file besides settings: calls the visitor with each name and member.
 template <typename Known, typename Visitor>
 void visitPreferences(Known& preferences, Visitor&& visit) {
     visit("recent", preferences.recent);
@@ -61,7 +61,7 @@ void visitPreferences(Known& preferences, Visitor&& visit) {
     visit("showsMarkers", preferences.showsMarkers);
 }
 
-// Each throws json::exception for a value of another kind.
+// Each throws json::exception for a value of the wrong type.
 
 template <typename T>
 void readInto(const json& entry, T& value) {
@@ -76,11 +76,11 @@ void readInto(const json& entry, std::optional<T>& value) {
 void readInto(const json& entry, std::optional<glm::ivec2>& size) {
     // Smaller windows were made by mistake, larger ones by a screen that is gone.
     const auto fits = [](double side) { return side >= 200.0 && side <= 16384.0; };
-    const auto sides = entry.get<std::array<double, 2>>(); // as whole numbers those beyond int would be undefined
+    const auto sides = entry.get<std::array<double, 2>>(); // not int: values out of its range would be undefined
     if (fits(sides[0]) && fits(sides[1])) size = glm::ivec2(int(sides[0]), int(sides[1]));
 }
 
-/// The text of a remembered setting; none for a value that it does not take, as of another version.
+/// The text of a saved setting; none for an invalid value, for example of another version.
 std::optional<std::string> settingText(const engine::Setting& setting, const json& entry) {
     if (!entry.is_string() && !entry.is_number()) return std::nullopt;
     const std::string text = entry.is_string() ? entry.get<std::string>() : entry.dump();
@@ -142,7 +142,7 @@ Preferences readPreferences(const std::filesystem::path& file) {
         if (entry == document.end()) return;
         try {
             readInto(*entry, value);
-        } catch (const json::exception&) { // of another version: the usual value stays
+        } catch (const json::exception&) { // of another version: the default stays
         }
     });
     for (const engine::Setting& setting : engine::settingTable()) {

@@ -8,20 +8,20 @@ namespace tessera::viewer {
 
 enum class Answer : std::uint8_t { Keep, Discard, Cancel };
 
-/// What the window asks about edits that are not saved. Nothing is lost until it is answered.
+/// A question about unsaved edits. Nothing is lost until it is answered.
 struct Question {
     enum class About : std::uint8_t {
-        Quitting,  ///< with edits that are not saved
-        Opening,   ///< another scene, the same
-        Recovering ///< edits of a run that ended without being asked
+        Quitting,  ///< with unsaved edits
+        Opening,   ///< another scene, with unsaved edits
+        Recovering ///< edits of a run that ended unexpectedly
     };
     About about = About::Quitting;
-    std::string scene;                       ///< that is opened by the answer; of Recovering the file of the edits
-    std::optional<std::string> variant = {}; ///< of Opening: in which the open scene is read again; empty: in none
+    std::string scene;                       ///< to be opened; for Recovering, the recovery file
+    std::optional<std::string> variant = {}; ///< for Opening: variant to reload the open scene in; empty: none
     bool operator==(const Question&) const = default;
 };
 
-/// An answer as the dialog offers it, and the key that gives it.
+/// An answer in the dialog, and its key.
 struct AnswerChoice {
     Answer answer;
     const char* label;
@@ -30,7 +30,7 @@ struct AnswerChoice {
 };
 std::span<const AnswerChoice> answersTo(Question::About about);
 
-/// What the dialog asks. `edited` is the name of the scene that has the edits.
+/// The text of the dialog. `edited` is the name of the scene with the edits.
 std::string questionText(const Question& question, const std::string& edited);
 
 } // namespace tessera::viewer

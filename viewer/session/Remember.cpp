@@ -18,7 +18,7 @@ void rememberLook(Preferences& preferences, const Look& look, const Look& begun)
     for (const engine::Setting& setting : engine::settingTable()) {
         if (!setting.isRemembered || setting.value.equal(now, before)) continue;
         const std::string key(setting.key), text = setting.text(now);
-        // Values left open are not saved, and values without a command-line name cannot be saved.
+        // Unset values are not saved, and values without a command-line name cannot be saved.
         if (text.empty() || text == setting.value.open)
             preferences.settings.erase(key);
         else

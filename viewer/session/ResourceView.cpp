@@ -16,7 +16,7 @@ const graph::FormatInfo& formatOf(const ResourceContents& contents) {
     return graph::formatInfo(std::get<graph::TextureDesc>(contents.desc).format);
 }
 
-/// [first, end) of the components that are shown: alpha is no colour.
+/// [first, end) of the displayed components: alpha is not a colour.
 std::pair<int, int> shownComponents(const ResourceContents& contents, ResourceView::Channels channels) {
     const int count = formatOf(contents).components;
     if (channels == ResourceView::Channels::All) return {0, std::min(count, 3)};
@@ -81,7 +81,7 @@ NumberRange rangeOf(const ResourceContents& contents, ResourceView::Channels cha
                 std::isfinite(number) && !(formatOf(contents).depth && number == 0.0))
                 numbers.push_back(number);
     if (numbers.empty()) return {};
-    constexpr double kInRange = 0.995; // the brightest highlights would leave the rest black
+    constexpr double kInRange = 0.995; // with the brightest highlights, the rest would be black
     const auto most = numbers.begin() + std::ptrdiff_t(std::ceil(kInRange * double(numbers.size() - 1)));
     std::nth_element(numbers.begin(), most, numbers.end());
     return {*std::min_element(numbers.begin(), most + 1), *most};

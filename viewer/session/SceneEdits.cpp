@@ -20,15 +20,14 @@ bool hasSelected(const State& state) {
     return state.open && state.selectedLight >= 0 && state.selectedLight < int(state.open->scene().lights.size());
 }
 
-/// The selected lights that there are; one is.
+/// The selected lights that exist; at least one does.
 std::set<int> selectedIn(const State& state) {
     std::set<int> selected = state.allSelectedLights();
     selected.erase(selected.lower_bound(int(state.open->scene().lights.size())), selected.end());
     return selected;
 }
 
-/// Selection, solo and what is known of types go with their lights after `put` lights came in the place of `taken` from
-/// `first` on.
+/// Updates selection, solo and the remembered types after `put` lights have replaced `taken` ones from `first` on.
 void followLights(State& state, std::size_t first, std::size_t taken, std::size_t put) {
     if (state.selectedLight != scenes::kNone)
         state.selectedLight = indexAfter(state.selectedLight, first, taken, put).value_or(scenes::kNone);
@@ -49,7 +48,7 @@ void replace(State& state, std::string what, std::size_t first, std::size_t coun
     followLights(state, first, count, put);
 }
 
-/// Where there is room for them. The latest is the one that panels are about.
+/// Appends lights within the scene's limit, and selects them. The last one becomes the one that panels edit.
 void append(State& state, const char* verb, Lights added) {
     const std::size_t before = state.open->scene().lights.size(), count = added.size();
     if (before + count > std::size_t(scenes::kMostLights)) return;
@@ -61,7 +60,7 @@ void append(State& state, const char* verb, Lights added) {
     state.selectedLight = int(before + count) - 1;
 }
 
-/// Gives a light what was changed of another, but its place, its name and how it moves by itself.
+/// Copies the values that changed in another light, except its position, name and animation.
 void copyChanges(scenes::Light& light, std::size_t index, const scenes::Light& before, const scenes::Light& after) {
     const auto isOwn = [](std::string_view name) {
         return name == "name" || name == "animation" || name == "keyframes";
@@ -78,14 +77,14 @@ void copyChanges(scenes::Light& light, std::size_t index, const scenes::Light& b
         }
     });
     if (light.flicker) light.flicker->seed = seed;
-    // Of every type: what this one has no use of is checked too.
+    // For every type: members that this type does not use are checked too.
     for (const scenes::LightTypeInfo& info : scenes::lightTypes())
         for (const scenes::LightParameter& parameter : info.parameters)
             if (parameter.within != nullptr)
                 light.*parameter.member = std::min(light.*parameter.member, light.*parameter.within);
 }
 
-/// What was exchanged is where the user looks.
+/// Selects what the edit exchanged, and updates the looks.
 void show(State& state, const Edit& edit) {
     if (const auto* lights = std::get_if<LightsEdit>(&edit)) {
         followLights(state, lights->first, lights->others.size(), lights->count);
@@ -232,7 +231,7 @@ void selectLights(State& state, std::span<const int> lights, bool isBeside) {
 
 void selectAllLights(State& state) {
     if (!state.open || state.open->scene().lights.empty()) return;
-    // Those that a search finds, where one is typed.
+    // Only the lights that a typed search finds.
     const std::vector<int> all = lightsIn(listedLights(state.open->scene().lights, state.listing));
     state.selectedLights = {all.begin(), all.end()};
     if (!state.selectedLights.contains(state.selectedLight))
@@ -243,12 +242,12 @@ void replaceByScattered(State& state) {
     if (!state.open) return;
     const scenes::Scene& scene = state.open->scene();
     Scatter wanted = state.scatter;
-    wanted.lux /= std::exp2(double(state.active().settings.exposureEV)); // as bright in the picture, whatever that is
+    wanted.lux /= std::exp2(double(state.active().settings.exposureEV)); // the image is equally bright at any exposure
     Lights scattered = scatterLights(scene, wanted);
     ++state.scatter.seed;
     const std::string what = fmt::format("scatter {} light{}", scattered.size(), scattered.size() == 1 ? "" : "s");
     replace(state, what, 0, scene.lights.size(), std::move(scattered));
-    // None of them is one that was there, also where there are as many.
+    // None of the previous lights is left, even if the count is the same.
     state.selectedLight = scenes::kNone;
     for (Look& look : state.looks) look.settings.soloLight.reset();
     state.types.forget();

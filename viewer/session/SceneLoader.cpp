@@ -12,7 +12,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// A text without the folder of a file but for the first time that it is named.
+/// Removes a file's folder from a text, except for its first mention.
 std::string namedOnce(std::string text, const std::string& file) {
     const std::string folder = (std::filesystem::path(file).parent_path() / "").string();
     std::size_t at = text.find(folder);
@@ -26,7 +26,7 @@ SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& o
     SceneLoader::Result result;
     result.source = source;
     result.load = options;
-    result.load.stop = {}; // it is this load's
+    result.load.stop = {}; // it belongs to this load
     const gpu::CpuTimer clock;
     try {
         const auto tell = [&](bool isFiltering, double done) {
@@ -66,7 +66,7 @@ void SceneLoader::start(const std::string& source, const scenes::LoadOptions& op
     result_.reset();
     waiting_ = {source, options};
     if (isWorking_) return;
-    thread_ = std::jthread([this] { work(); }); // the one before needs nothing any more to end
+    thread_ = std::jthread([this] { work(); }); // joins the previous thread, which no longer needs the mutex
     isWorking_ = true;
 }
 

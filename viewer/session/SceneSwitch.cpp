@@ -18,8 +18,8 @@
 namespace tessera::viewer {
 namespace {
 
-/// What is said of a supplied camera, and all of its place besides: a command of another size would supply another
-/// camera.
+/// The requested change of a supplied camera, completed by its full placement: a command with another image size would
+/// supply another camera.
 scenes::CameraChange placeOfSupplied(const scenes::Camera& camera, const scenes::CameraChange& said,
                                      const scenes::Box3& boundsWS) {
     const scenes::CameraChange place = changeOf(poseOf(scenes::changedCamera(camera, said), boundsWS), camera);
@@ -35,7 +35,7 @@ scenes::CameraChange placeOfSupplied(const scenes::Camera& camera, const scenes:
     return change;
 }
 
-/// How many warnings a scene came with, and what it was given; empty where neither. The panel Scene shows all of it.
+/// Summary of a scene's warnings and supplied parts; empty without either. The panel Scene shows all of it.
 std::string loadNote(const scenes::Scene& scene) {
     static constexpr std::size_t kMostCounted = 100; // files may have any number
     const std::size_t warnings = scene.warnings.size();
@@ -102,14 +102,14 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     // Another scene begins at its own time.
     if (!state_.open || identityOf(state_.open->source()) != identityOf(scene->source()))
         for (Look& look : state_.looks) look.settings.timeSeconds = first.look.settings.timeSeconds;
-    state_.viewEnvironmentBy(scene->environmentView()); // turning the one before was an edit of that scene
-    // The other side of a comparison begins with a technique that shades the other way, and is as fast with many
+    state_.viewEnvironmentBy(scene->environmentView()); // turning the previous environment was an edit of that scene
+    // The other side of a comparison begins with a technique of the other kind (forward, deferred), as fast with many
     // lights.
     if (!hadScene_)
         state_.looks[1].technique = infoOf(first.look.technique).usesGBuffer() ? engine::Technique::ClusteredForward
                                                                                : engine::Technique::ClusteredDeferred;
     state_.looks[1] = possible(state_.looks[1]);
-    // The next scene may lack the channel that the last one was looked at by.
+    // The new scene may lack the channel that was displayed.
     if (hadScene_)
         for (Look& look : state_.looks)
             if (!engine::storesShown(frame::makeFrameSpec(scene->scene(), {}, look.settings)))
@@ -147,7 +147,7 @@ void SceneSwitch::comeBack(OpenScene& scene) {
     const auto found = left_.find(identityOf(scene.source()));
     if (found == left_.end()) return;
     const Left& left = found->second;
-    const std::vector<scenes::Camera>& cameras = scene.loadedCameras(); // of a file that may have changed since
+    const std::vector<scenes::Camera>& cameras = scene.loadedCameras(); // the file may have changed since
     if (left.index >= int(cameras.size()) || cameras[std::size_t(left.index)] != left.camera) return;
     scene.useCamera(left.index);
     scene.place(left.placed);
@@ -158,7 +158,7 @@ void SceneSwitch::comeBack(OpenScene& scene) {
 
 void SceneSwitch::remember(glm::ivec2 windowSize) {
     if (!options_.preferencesFile) return;
-    Preferences now = preferences_; // a setting may yet become again what the open scene began with
+    Preferences now = preferences_; // a setting may yet return to the open scene's initial value
     viewer::remember(now, state_, base_, windowSize);
     if (now == written_) return;
     try {

@@ -11,52 +11,52 @@
 
 namespace tessera::viewer {
 
-/// Replaces the open scene by another: the user's choices stay, and the preferences are kept up to date.
+/// Replaces the open scene by another. The user's choices stay, and the preferences are kept up to date.
 class SceneSwitch {
 public:
-    /// `done` is called on another thread when a scene waits.
+    /// `done` is called on another thread when a scene has been loaded.
     SceneSwitch(const ViewerOptions& options, State& state, const EventLog& log, std::function<void()> done);
 
     /// `load` applies to this load alone. Options about the first scene apply to the first call only, even if it fails;
     /// all others to every call.
     void open(const std::string& source, const scenes::LoadOptions& load = {});
     bool hasResult() const { return loader_.hasResult(); }
-    /// Of SceneLoader.
+    /// See SceneLoader.
     std::optional<EnvironmentShare> environmentShare() const { return loader_.environmentShare(); }
-    /// What the load gave; null where it failed. Until the next call of open(), take() or discard().
+    /// The loaded scene; null if loading failed. Valid until the next call of open(), take() or discard().
     const scenes::Scene* scene() const { return loader_.scene(); }
-    /// The scene that was loaded, once; null where there is none. `show` gets it first; then the looks of the state
-    /// become its, and it still has to be put there. Throws where it could not be loaded, and what `show` throws; then
-    /// nothing has changed but that no scene waits.
+    /// Returns the loaded scene, once; null without one. It is passed to `show`, then the state's looks change to it;
+    /// the caller stores it in the state. Throws if loading failed, and what `show` throws; then nothing has changed
+    /// except that the result is gone.
     std::unique_ptr<OpenScene> take(const std::function<void(const OpenScene& scene)>& show);
     /// Discards the result.
     void discard();
-    /// Writes the preferences where they differ from those that were written last. Failures are warnings.
+    /// Writes the preferences if they differ from those written last. Failures become warnings.
     void remember(glm::ivec2 windowSize);
 
 private:
-    /// How a scene was looked at when it was left.
+    /// The view of a scene when it was left.
     struct Left {
         int index = 0;
-        scenes::Camera camera; ///< of that index, as the scene has it
+        scenes::Camera camera; ///< of that index, as loaded
         scenes::CameraChange placed;
-        std::optional<CameraPose> pose; ///< none: nothing had moved it
-        std::optional<double> aspect;   ///< for which a camera was supplied, or placed
+        std::optional<CameraPose> pose; ///< none: unmoved
+        std::optional<double> aspect;   ///< for which a camera was supplied or placed
     };
     void leave(const OpenScene& scene);
-    /// Looks at a scene as it was left, where it has that camera still.
+    /// Restores the view of a scene as it was left, if it still has that camera.
     void comeBack(OpenScene& scene);
 
     const ViewerOptions& options_;
     State& state_;
     const EventLog& log_;
-    Preferences preferences_; ///< of earlier runs, with later choices until the open scene came
+    Preferences preferences_; ///< of earlier runs, with choices made before the open scene was loaded
     std::optional<Preferences> written_;
-    std::string fault_;                ///< why they could not be written last
+    std::string fault_;                ///< why writing failed last
     Look base_;                        ///< initial look of the open scene
-    bool hadScene_ = false;            ///< the looks of the state and `base_` are a scene's
-    bool wasAsked_ = false;            ///< to open a scene
-    bool isFirstLoad_ = false;         ///< the latest load is that of the program's start
+    bool hadScene_ = false;            ///< the state's looks and `base_` belong to a scene
+    bool wasAsked_ = false;            ///< open() was called
+    bool isFirstLoad_ = false;         ///< the latest load is that of program start
     std::map<std::string, Left> left_; ///< by identityOf()
     SceneLoader loader_;
 };

@@ -12,45 +12,45 @@
 
 namespace tessera::viewer {
 
-/// An environment with all that belongs to it.
+/// An environment with its associated data.
 struct Surrounding {
     std::optional<scenes::Environment> environment;
-    scenes::EnvironmentView view; ///< that it is seen by: SeenEnvironment::view()
+    scenes::EnvironmentView view; ///< applied to it: SeenEnvironment::view()
     bool isSupplied = false;      ///< scenes::Supplied::light
     std::shared_ptr<const frame::FilteredEnvironment> filtered;
-    std::vector<std::string> warnings; ///< that it brought; of one that a file brought they stay with the scene
-    /// Makes what its view makes of the environment the environment's own.
+    std::vector<std::string> warnings; ///< of a chosen environment; those of the scene's file stay with the scene
+    /// The view's rotation and intensity become the environment's own.
     void takeAsSeen();
 };
 
-/// The environment of an open scene: its own or one that was chosen, and how looks turn and brighten it.
+/// The environment of an open scene, its own or a chosen one, with the rotation and intensity that looks apply to it.
 class SeenEnvironment {
 public:
-    /// Of a scene that stays where it is. `filtered`, of its environment, may be null. `seen` is how looks turn and
-    /// brighten that to begin with.
+    /// The scene's address must stay fixed. `filtered`, of its environment, may be null. `seen` is the initial rotation
+    /// and intensity that looks apply.
     SeenEnvironment(scenes::Scene& scene, std::shared_ptr<const frame::FilteredEnvironment> filtered,
                     const scenes::EnvironmentView& seen)
         : scene_(scene), own_(scenes::ownEnvironmentOf(scene)), view_(seen), filtered_(std::move(filtered)) {}
 
-    /// What looks show it by.
+    /// The rotation and intensity that looks apply.
     const scenes::EnvironmentView& view() const { return view_; }
-    /// What a renderer need not filter; may be null.
+    /// The filtered environment, if it is known; may be null.
     const std::shared_ptr<const frame::FilteredEnvironment>& filtered() const { return filtered_; }
     /// Counts changes of the environment itself.
     std::uint64_t revision() const { return revision_; }
 
-    /// What takes its place where another was chosen, which lies as the scene's own (scenes::layAs()).
+    /// The replacement by a chosen environment, with the rotation of the scene's own (scenes::layAs()).
     Surrounding replacedBy(ChosenEnvironment chosen) const;
-    /// Exchanges all that belongs to it.
+    /// Exchanges the environment and its associated data.
     void exchange(Surrounding& other);
-    /// Exchanges how it lies and shines, its own numbers and what looks make of them; there is one.
+    /// Exchanges its own rotation and intensity, and those that looks apply. Requires an environment.
     void exchange(scenes::EnvironmentView& own, scenes::EnvironmentView& view);
-    /// A file has the environment as it is seen: that is its own, and the scene asks for no other view.
+    /// After saving a file with the displayed environment: the view becomes its own, the requested view is dropped.
     void takeAsSeen();
 
 private:
     scenes::Scene& scene_;
-    scenes::OwnEnvironment own_; ///< as the file has it
+    scenes::OwnEnvironment own_; ///< as in the file
     scenes::EnvironmentView view_;
     std::shared_ptr<const frame::FilteredEnvironment> filtered_;
     std::vector<std::string> warnings_; ///< Surrounding::warnings

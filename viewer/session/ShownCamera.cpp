@@ -14,7 +14,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Whether a change says where a camera is or looks.
+/// Whether a change sets the position or orientation of a camera.
 bool places(const scenes::CameraChange& change) {
     return change.eyeWS || change.targetWS || change.upWS;
 }
@@ -63,7 +63,7 @@ void ShownCamera::changeFieldOfView(double degrees) {
     scenes::CameraChange change = placed_;
     change.fovYDegrees = degrees;
     scenes::Camera start = scenes::changedCamera(sceneCamera(), change);
-    start.worldFromCamera = rig_.start().worldFromCamera; // a clip may have moved the scene's
+    start.worldFromCamera = rig_.start().worldFromCamera; // a clip may have moved the scene's camera
     const bool isMoved = rig_.isMoved();
     const CameraPose pose = rig_.pose();
     placed_ = change;
@@ -90,7 +90,7 @@ void ShownCamera::exchange(CameraView& other) {
     rig_ = std::move(other.rig);
     rig_.moveAs(before.rig);
     applyRig();
-    goWithClip(); // which may have gone on
+    goWithClip(); // the clip may have advanced
     other = std::move(before);
 }
 
@@ -120,7 +120,7 @@ void ShownCamera::takeUp() {
 }
 
 CameraPose ShownCamera::poseThrough(const scenes::Camera& camera) const {
-    constexpr int kSidePixels = 3; // the middle one looks along the axis
+    constexpr int kSidePixels = 3; // the middle pixel looks along the axis
     const auto seen = pickedByRay(scene_, camera, glm::ivec2(kSidePixels), glm::ivec2(kSidePixels / 2));
     if (!seen) return poseOf(camera, boundsWS_);
     const glm::dvec3 forwardWS = -glm::dvec3(camera.worldFromCamera[2]);
@@ -140,14 +140,14 @@ void ShownCamera::goWithClip() {
     if (std::ranges::none_of(scene_.rig.cameras, isShown) && std::ranges::none_of(scene_.rig.numbers, isOfShown))
         return;
     scenes::Camera start = scenes::changedCamera(sceneCamera(), placed_);
-    if (places(placed_)) { // it stands still, and only its lens may change
+    if (places(placed_)) { // it stands still, only its lens may change
         start.worldFromCamera = rig_.start().worldFromCamera;
         rig_.startAt(start, rig_.home());
         return applyRig();
     }
     const CameraPose home = poseOf(start, rig_.home().focusMetres);
     if (isLed()) return begin(start, home);
-    rig_.startAt(start, home); // it is where it was, and the clip's camera is home
+    rig_.startAt(start, home); // it stays where it is, and the clip's camera becomes its home
     applyRig();
 }
 

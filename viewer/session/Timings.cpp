@@ -7,9 +7,9 @@ namespace tessera::viewer {
 namespace {
 
 constexpr std::size_t kMostFrames = 240; ///< some seconds of movement; a trace of them stays small
-constexpr double kRateMs = 1000.0;       ///< over which pictures are counted
-/// So long without a picture, beside twice what one takes, and nothing moved in between: twice the time after which all
-/// rests.
+constexpr double kRateMs = 1000.0;       ///< over which the frame rate is averaged
+/// A longer gap between images, beyond twice an image's own time, means that nothing moved: twice the time after which
+/// everything is idle.
 constexpr double kGapMs = 300.0;
 
 double median(std::vector<double> values) {
@@ -18,7 +18,7 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
-/// Sums over the runs of every pass, in the order of their first.
+/// Sums the runs of each pass, in order of their first run.
 std::vector<gpu::PassTiming> summed(const std::vector<gpu::PassTiming>& runs) {
     std::vector<gpu::PassTiming> sums;
     for (const gpu::PassTiming& run : runs) {
@@ -93,7 +93,7 @@ std::optional<TypicalTimes> Timings::typical(int side) const {
     TypicalTimes typical{ms.size(), median(ms), summed(now->passes)};
     for (gpu::PassTiming& pass : typical.passes) {
         const auto samples = passes.find(pass.name);
-        if (samples == passes.end()) continue; // only the latest has it, and does not count
+        if (samples == passes.end()) continue; // only the latest frame has it, and does not count
         if (!samples->second.gpuMs.empty()) pass.gpuMs = median(samples->second.gpuMs);
         pass.cpuMs = median(samples->second.cpuMs);
     }

@@ -7,11 +7,11 @@
 
 namespace tessera::viewer {
 
-/// The heat colours of a picture of counts, made again from what it counts: its display pass does not know the largest
-/// count, which ends the scale.
+/// Redraws the heat colours of an image of counts with a scale that ends at its largest count, which its display pass
+/// does not know.
 class CountColors {
 public:
-    /// Draws the display picture anew, by a scale that ends at 2^log2Most - 1. Throws gpu::ShaderError.
+    /// Redraws the display image with a scale that ends at 2^log2Most - 1. Throws gpu::ShaderError.
     void update(shader::ProgramLibrary& programs, const Target& radiance, const Target& display, float log2Most);
 
 private:

@@ -7,10 +7,10 @@
 
 namespace tessera::viewer {
 
-/// How much two pictures differ, amplified: |a - b| of exposed radiance, times a factor, as a display shows it.
+/// The amplified difference of two images: |a - b| of exposed radiance, times a factor, encoded for display.
 class Difference {
 public:
-    /// Where one of the values is no number the pixel is magenta. The pictures must be of one size.
+    /// Pixels with NaN or infinite values are magenta. The images must have the same size.
     void update(shader::ProgramLibrary& programs, const Target& radianceA, const Target& radianceB, float factor);
     const Target* image() const { return image_.get(); }
 

@@ -10,7 +10,7 @@
 
 namespace tessera::viewer {
 
-/// A texture that can be copied into and from.
+/// A texture with a framebuffer, to copy into and from.
 class Target {
 public:
     Target(const char* label, graph::Format format, glm::ivec2 sizePixels);
@@ -24,15 +24,15 @@ private:
     gpu::Framebuffer framebuffer_;
 };
 
-/// The latest complete picture of one side of the window. It stays unchanged while the next one is drawn, or fails.
+/// The latest complete image of one side of the window. It stays unchanged while the next one is drawn, or fails.
 class DrawnPicture {
 public:
-    /// What is kept of a picture besides what a display shows of it.
+    /// What is kept of an image besides its display colours.
     struct Kept {
         bool radiance = false;
-        bool lights = false; ///< where they are told; waits for the GPU
+        bool lights = false; ///< if its view has them; waits for the GPU
     };
-    /// Copies the renderer's latest picture.
+    /// Copies the renderer's latest image.
     void take(const engine::Renderer& renderer, const Look& look, Kept kept);
     void clear();
 
@@ -40,16 +40,16 @@ public:
     const Look& look() const { return look_; } ///< with the size it was drawn at
     const Target& display() const { return *display_; }
     const Target* radiance() const { return hasRadiance_ ? radiance_.get() : nullptr; }
-    /// Null where they were not kept.
+    /// Null if they were not kept.
     const PictureLights* lights() const { return lights_ ? &*lights_ : nullptr; }
-    /// Of views that show counts: where the scale of the display picture's colours ends, as a power of two.
+    /// For views of counts: end of the display image's colour scale, as a power of two.
     float countScaleLog2() const { return countScaleLog2_; }
     void setCountScale(float log2Most) { countScaleLog2_ = log2Most; }
 
 private:
     Look look_;
     std::unique_ptr<Target> display_, radiance_;
-    bool hasRadiance_ = false; ///< of the picture shown
+    bool hasRadiance_ = false; ///< of the displayed image
     std::optional<PictureLights> lights_;
     float countScaleLog2_ = 0.0f;
 };

@@ -7,8 +7,8 @@
 
 namespace tessera::viewer {
 
-/// How much of a picture is drawn, 0 to 1, by what its passes took in an earlier one of its kind; none where that had
-/// none. `before` may be of another size: passes' shares change less than their times.
+/// The drawn fraction of an image, 0 to 1, estimated from the pass times of an earlier one of its kind; none without
+/// times. `before` may be of another size: relative pass times change less than absolute ones.
 std::optional<double> drawnShare(std::span<const gpu::PassTiming> before, const gpu::BandProgress& progress);
 
 } // namespace tessera::viewer

@@ -6,7 +6,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Of the sides that have a picture of one size with radiance.
+/// Views of the leading sides whose images have radiance and the same size.
 std::vector<frame::DebugView> viewsToRead(const State& state, const Screen& screen) {
     std::vector<frame::DebugView> views;
     for (int side = 0; side < state.sides(); ++side) {

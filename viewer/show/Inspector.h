@@ -8,16 +8,16 @@
 
 namespace tessera::viewer {
 
-/// Reads what the pictures in the window show at the pixel that the user points at. Values come a frame or two later,
-/// without waiting for the GPU; the surface there is looked for once the picture is whole.
+/// Reads the values of the pixel under the pointer. They arrive a frame or two later, without waiting for the GPU; the
+/// surface there is found when the image has full resolution.
 class Inspector {
 public:
-    /// Brings Facts::inspection up to date with the pictures, of which `picture` counts those that were drawn. Whether
-    /// it changed. Throws std::runtime_error where the surface cannot be looked for, and then does not try again.
+    /// Updates Facts::inspection for the displayed images; `picture` counts the drawn ones. Returns whether it changed.
+    /// Throws std::runtime_error if finding the surface fails, and then does not retry.
     bool update(Facts& facts, const State& state, const Screen& screen, std::uint64_t picture, bool isAtRest);
-    /// Another frame is to ask for values that are on their way.
+    /// Another frame is needed to fetch requested values.
     bool isBusy() const { return isAsked_; }
-    /// Something is to be looked for once all rests.
+    /// The surface is still to be found, when everything is idle.
     bool awaitsRest() const { return awaitsRest_; }
 
 private:
@@ -31,8 +31,8 @@ private:
     bool take(Facts& facts);
     void findSurface(Inspection& inspection, const State& state, const Screen& screen) const;
 
-    std::optional<gpu::TexelReader> reader_; ///< made when it is needed first
-    std::optional<Subject> subject_;         ///< was asked for last
+    std::optional<gpu::TexelReader> reader_; ///< created on first use
+    std::optional<Subject> subject_;         ///< of the latest request
     bool isAsked_ = false, awaitsRest_ = false;
 };
 

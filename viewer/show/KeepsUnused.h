@@ -3,8 +3,8 @@
 
 namespace tessera::viewer {
 
-/// While one lives, frames make nothing older that they do not use: light that is spread, and shadow maps, are for the
-/// pictures that follow, however many were drawn for something else in between.
+/// While one exists, frames do not age resources that they do not use: diffused irradiance and shadow maps stay for
+/// later images, however many extra frames are drawn in between.
 class KeepsUnused {
 public:
     explicit KeepsUnused(gpu::GraphBackend& backend) : backend_(backend) { backend_.setCountsIdleFrames(false); }

@@ -18,8 +18,8 @@ std::vector<std::uint8_t> instancesOf(const scenes::Scene& scene, int material) 
     return haveIt;
 }
 
-/// Whether pictures of a view show the scene's surfaces, as frames of the view ids do. While a hook moves vertices too
-/// far, only the view that marks them has frames.
+/// Whether images of a view show the scene's surfaces, like the ids view. While a hook moves vertices too far, only the
+/// view that marks them can be drawn.
 bool showsSurfaces(frame::DebugView view) {
     return view != frame::DebugView::ShadowAtlas && view != frame::DebugView::MovedTooFar;
 }

@@ -9,33 +9,31 @@
 
 namespace tessera::viewer {
 
-/// Finds where the picture shows the selected material, once it rests: by a frame of the view ids, which is drawn for
-/// that alone.
+/// Finds the outline of the selected material in the idle image, by an extra frame of the ids view.
 class MaterialOutline {
 public:
-    /// What the outline follows from, but how materials cut holes, and the text of a hook.
+    /// The inputs of the outline, except the alpha masks of materials and the hook's source.
     struct Sight {
         const OpenScene* open = nullptr;
         int material = scenes::kNone;
         glm::ivec2 sizePixels{0};
         scenes::Camera camera;
         std::uint64_t geometryRevision = 0;
-        // Of a hook, which may move vertices by them.
+        // Inputs of a hook, which may move vertices by them.
         double timeSeconds = 0.0;
         std::vector<scenes::HookParameter> hookParameters = {};
         bool operator==(const Sight&) const = default;
     };
-    /// None where no panel shows the material, or the look's picture is none of its surfaces.
+    /// None if no panel shows the material, or the look's view shows no surfaces.
     static std::optional<Sight> sightOf(const State& state, const Look& look);
 
-    /// Brings Facts::materialOutline up to date with the picture of a look. Whether it changed. `givesUp` ends the
-    /// frame where input waits; then the next rest tries again. Throws as Renderer::draw does, and then does not try
-    /// again.
+    /// Updates Facts::materialOutline for the image of a look. Returns whether it changed. `givesUp` aborts the frame
+    /// for pending input; the next idle time retries. Throws as Renderer::draw does, and then does not retry.
     bool update(Facts& facts, const State& state, Screen& screen, const Look& look, bool isAtRest,
                 const std::function<bool()>& givesUp);
-    /// Something is to be found once all rests.
+    /// The outline is still to be found, when everything is idle.
     bool awaitsRest() const { return awaitsRest_; }
-    /// Shaders have changed, the hook's among them: the outline is to be found anew.
+    /// Shaders have changed, possibly the hook's: the outline is to be found again.
     void forget() { found_.reset(); }
 
 private:

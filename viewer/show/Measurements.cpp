@@ -13,7 +13,7 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr int kJudgedShare = 4; ///< of the picture's sides: the oracle tries every light at every pixel
+constexpr int kJudgedShare = 4; ///< divides the image's sides: the oracle tries every light at every pixel
 
 Picture radianceOf(const DrawnPicture& picture) {
     return engine::toPicture(engine::readBack(picture.radiance()->texture(), nullptr));
@@ -45,7 +45,7 @@ bool Measurements::updatePlan(Facts& facts, const State& state, const Screen& sc
     try {
         facts.plan = engine::planFrame(renderer.scene(), now.look.technique,
                                        engine::settingsOn(screen.capabilities(), now.look.settings));
-    } catch (const InputError&) { // the frame itself could not be drawn, and the window says why
+    } catch (const InputError&) { // the frame itself failed, and the window shows why
         facts.plan.reset();
     }
     return true;
@@ -66,7 +66,7 @@ bool Measurements::updateCounts(Facts& facts, const Screen& screen, const Screen
         facts.mostCounts[std::size_t(side)] = {look.settings.view, most};
         isCounted = true;
     }
-    // Of one view on both sides, colours mean the same.
+    // If both sides show the same view, their colours have the same scale.
     auto& [left, right] = facts.mostCounts;
     if (left && right && left->view == right->view) left->most = right->most = std::max(left->most, right->most);
     return isCounted;
@@ -87,7 +87,7 @@ bool Measurements::updateFigures(Facts& facts, const Screen& screen, const Scree
 void Measurements::judgeLights(Facts& facts, Screen& screen, const Look& look) {
     frame::FrameSettings settings = look.settings;
     settings.sizePixels = glm::max(settings.sizePixels / kJudgedShare, glm::ivec2(1));
-    settings.view = frame::DebugView::Final; // views may build no lists
+    settings.view = frame::DebugView::Final; // other views may build no lists
     facts.lights = validation::judgeLights(*screen.renderer(), look.technique, settings);
     const culling::Choice culling =
         engine::prepareView(screen.renderer()->scene(), look.technique, settings).spec.culling;

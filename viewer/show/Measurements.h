@@ -8,20 +8,20 @@
 
 namespace tessera::viewer {
 
-/// What takes too long to be measured in every frame: made when the pictures rest, and only where a panel shows it.
+/// Measurements that are too slow for every frame: made when the images are idle, and only if a panel shows them.
 class Measurements {
 public:
-    /// `done` is called on another thread when something new waits for update().
+    /// `done` is called on another thread when a new result waits for update().
     explicit Measurements(std::function<void()> done) : figureJob_(std::move(done)) {}
 
     bool hasResult() const { return figureJob_.hasResult(); }
-    /// Brings the facts up to date with the pictures, which are those of `wanted` where they are whole. Whether a fact
-    /// changed. Throws what measuring throws.
+    /// Updates the facts for the displayed images, which match `wanted` if `isWhole`. Returns whether a fact changed.
+    /// Throws what measuring throws.
     bool update(Facts& facts, const State& state, const Screen& screen, const Screen::Wanted& wanted, bool isWhole);
-    /// Judges the light lists of a frame at a quarter of its size, by trying every light at every pixel. Throws what
+    /// Checks the light lists of a frame at a quarter of its size, by testing every light at every pixel. Throws what
     /// drawing throws.
     void judgeLights(Facts& facts, Screen& screen, const Look& look);
-    /// Nothing that was measured holds any more.
+    /// Discards all results.
     void clear(Facts& facts);
 
 private:
@@ -35,8 +35,8 @@ private:
     bool updateFigures(Facts& facts, const Screen& screen, const Screen::Wanted& wanted);
 
     std::optional<Planned> planned_;
-    std::optional<Screen::Wanted> counted_;  ///< whose largest counts are shown
-    std::optional<Screen::Wanted> measured_; ///< the pair whose figures are shown, or being made
+    std::optional<Screen::Wanted> counted_;  ///< whose largest counts are displayed
+    std::optional<Screen::Wanted> measured_; ///< the pair whose figures are displayed, or being measured
     FigureJob figureJob_;
 };
 

@@ -15,12 +15,12 @@
 namespace tessera::viewer {
 namespace {
 
-/// Longer pictures are refined by steps.
+/// Images that take longer are refined in steps.
 constexpr double kLongMs = 1000.0;
-/// The same of a first picture, which has compiled shaders, so that nobody knows what the whole one takes.
+/// The same after a first image, whose time includes compiling shaders and thus predicts nothing.
 constexpr double kLongFirstMs = 250.0;
-constexpr double kQuietSeconds = 0.5; ///< until it is told how far a picture is,
-constexpr double kTellSeconds = 0.25; ///< and between
+constexpr double kQuietSeconds = 0.5; ///< until progress is shown first,
+constexpr double kTellSeconds = 0.25; ///< and between updates
 
 } // namespace
 
@@ -64,7 +64,7 @@ double PictureDrawing::movingScale() const {
 
 double PictureDrawing::nextScale() const {
     const double whole = restScale(), latest = facts_.scale;
-    constexpr double kMostRefined = 0.25; // steps cost a third of the whole picture at most
+    constexpr double kMostRefined = 0.25; // steps cost at most a third of the full image
     if (!state_.automaticScale || latest > kMostRefined) return whole;
     const bool isLong = wasUnlike_ ? facts_.ms > kLongFirstMs : screen_.predictedMs(whole) > kLongMs;
     return isLong ? *std::find_if(kScales.rbegin(), kScales.rend(), [&](double scale) { return scale >= 2.0 * latest; })
@@ -86,11 +86,11 @@ void PictureDrawing::noteShown() {
 
 bool PictureDrawing::update(glm::ivec2 sizePixels) {
     gaveUpAtRest_ = false;
-    if (std::exchange(facts_.progress, std::nullopt)) pulse_.another(); // until the window says so no more
+    if (std::exchange(facts_.progress, std::nullopt)) pulse_.another(); // to remove the progress box
     const bool wasAnnounced = facts_.isPreparing || facts_.isSpreading;
     facts_.isPreparing = facts_.isSpreading = false;
     const bool wasSpreading = std::exchange(facts_.spreading, std::nullopt).has_value();
-    if (wasSpreading) pulse_.another(); // until the line says so no more
+    if (wasSpreading) pulse_.another(); // to update the status line
     if (!wasAnnounced) announcements_ = 0;
     if (!state_.open || sizePixels.x < 1 || sizePixels.y < 1) return false;
     wanted_.looks = {drawnLook(state_, 0), drawnLook(state_, 1)};
@@ -120,13 +120,13 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     if (isWholeNow && isAtRest && lacksSmoothing()) smooth();
     if (isWholeNow || (have > 0.0 && have >= movingScale() && isMoving(state_))) return false;
     if (have > 0.0 && !isAtRest) return false;
-    if (isAtRest && !isDescribed_) return false; // the whole picture may take long: say first what this one is
+    if (isAtRest && !isDescribed_) return false; // the full image may take long: show the figures of this one first
     const bool lacksLight = isAtRest && screen_.lacksLight(wanted_, Screen::Reach::Seen);
-    // Where that takes long, a whole picture without it comes first.
+    // If diffusion takes long, a full-resolution image without it comes first.
     const bool isSmall = facts_.scale < restScale() && (screen_.spreadsAnew(wanted_) || wasSpreading);
     if (lacksLight && !isSmall) return spreadSlice(Screen::Reach::Seen);
     if (have == 0.0) pulse_.stirred(Window::nowSeconds());
-    // A scale that is fixed is that of all pictures: none is better.
+    // A fixed scale applies to all images: none is better.
     const double scale = isAtRest ? nextScale() : movingScale();
     const Screen::Stay stay = isAtRest && (scale < restScale() || lacksLight) ? Screen::Stay::Refines
                               : isAtRest || !state_.automaticScale            ? Screen::Stay::Stays
@@ -153,7 +153,7 @@ bool PictureDrawing::spreadSlice(Screen::Reach reach) {
 }
 
 bool PictureDrawing::isToBeAnnounced(Screen::Stay stay) {
-    constexpr int kFrames = 2; // the interface of this frame is laid out already
+    constexpr int kFrames = 2; // the interface of this frame is already laid out
     if (announcements_ >= kFrames) return false;
     facts_.isPreparing = screen_.lacksPrograms(wanted_);
     facts_.isSpreading = !facts_.isPreparing && stay == Screen::Stay::Stays && screen_.spreadsAnew(wanted_);
@@ -219,9 +219,9 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
     const double startedAt = Window::nowSeconds();
     nextTold_ = startedAt + kQuietSeconds;
     const bool isNewKind = screen_.isNewKind(wanted_);
-    if (screen_.lacksPrograms(wanted_)) facts_.progress = announced(); // until it is given up, or told how far it is
+    if (screen_.lacksPrograms(wanted_)) facts_.progress = announced(); // until aborted, or replaced by the progress
     try {
-        // They wait for the GPU, which pictures of moving things have no time for.
+        // Reading lights waits for the GPU, which is too slow while something moves.
         const bool keepsLights = state_.inspects && isAtRest && scale >= restScale();
         Screen::Drawn drawn =
             screen_.draw(wanted_, scale, stay, keepsLights, mayGiveUp ? std::function<bool()>(givesUp) : nullptr);
@@ -246,7 +246,7 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
                                 drawn.passes[side], kinds_, drawn.isUnlike, !isAtRest});
         }
         facts_.picturesPerSecond = state_.timings.picturesPerSecond();
-        pulse_.another(); // the figures of this frame are shown by the next
+        pulse_.another(); // the next frame shows this one's figures
         if (state_.notice.isError && state_.notice.text == drawingFault_) state_.notice = {};
         note(missingTextures_, std::move(drawn.missingTextures));
         if (drawn.unseenSpread) note(unseenSpread_, std::move(*drawn.unseenSpread));

@@ -11,70 +11,70 @@
 
 namespace tessera::viewer {
 
-/// Decides when pictures of what the user chose are drawn, and at which scale; tells what it did.
+/// Decides when images of the user's settings are drawn, and at which scale; reports what it did.
 class PictureDrawing {
 public:
-    /// What it calls.
+    /// Callbacks.
     struct Calls {
         std::function<void(const std::string&)> fails; ///< shows an error
-        /// Shows Facts::progress over the window as it was, while a picture is being drawn: between bands (Bands.h).
+        /// Shows Facts::progress over the unchanged window while an image is being drawn: between bands (Bands.h).
         std::function<void()> tells;
-        std::function<bool()> isOver; ///< something was loaded that comes in the place of what the picture shows
+        std::function<bool()> isOver; ///< something was loaded that replaces the contents of the image
     };
     /// All must outlive the object.
     PictureDrawing(State& state, Facts& facts, Screen& screen, Window& window, const EventLog& log, Pulse& pulse,
                    Calls calls);
 
-    /// Draws changed pictures of a size: at reduced resolution while something moves, at full resolution at rest.
+    /// Draws changed images of a size: at reduced resolution while something moves, at full resolution when idle.
     /// Returns whether it drew.
     bool update(glm::ivec2 sizePixels);
-    /// The window has shown the figures of the latest picture with it, or not yet.
+    /// Whether the status line has shown the timings of the latest image.
     void setDescribed(bool isDescribed) { isDescribed_ = isDescribed; }
 
     const Screen::Wanted& wanted() const { return wanted_; }
-    std::uint64_t pictures() const { return pictures_; } ///< that were drawn
-    int givenUp() const { return givenUp_; }             ///< since the latest of them
-    /// The latest update() gave up a picture at rest.
+    std::uint64_t pictures() const { return pictures_; } ///< number of drawn images
+    int givenUp() const { return givenUp_; }             ///< aborted draws since the latest image
+    /// The latest update() aborted an idle image.
     bool gaveUpAtRest() const { return gaveUpAtRest_; }
     bool isWhole() const;
-    /// Nothing is left to draw: it is whole, or the user wants no more of it.
+    /// Nothing is left to draw: the image has full resolution, or the user cancelled it.
     bool isSettled() const { return isWhole() || cancelled_ == wanted_; }
-    /// Leaves the picture as far as it is drawn, until it would be another, or resume().
+    /// Stops drawing the current image, until its settings change or resume().
     void cancel();
     void resume() { cancelled_.reset(); }
-    /// Whether light is left to spread over what other cameras see; while one is flown nobody waits for it.
+    /// Whether irradiance is left to diffuse for other cameras, so that flying does not have to wait for it.
     bool lacksLight() const;
-    /// Whether shifted pictures are left to draw that smooth the edges of the one at rest.
+    /// Whether shifted images that antialias the idle one are left to draw.
     bool lacksSmoothing() const;
-    /// Whether the window still tells how fast pictures follow one another, which is wrong at rest.
+    /// Whether the window still shows the frame rate, which is wrong when idle.
     bool tellsRate() const { return facts_.picturesPerSecond.has_value(); }
 
 private:
     double restScale() const;
-    /// Whether the whole picture has yet to be drawn with what an inspected pixel tells of lights.
+    /// Whether the image must be drawn again with the light lists that the inspector needs.
     bool lacksLights() const { return state_.inspects && screen_.shows(wanted_) && !screen_.knowsLights(wanted_); }
-    /// Tells how large the wanted pictures are that the window shows.
+    /// Records scale and size of the displayed images.
     void noteShown();
     double movingScale() const;
-    /// The scale of the next picture at rest: the whole one, or, where that takes long, one with twice the sides.
+    /// The scale of the next idle image: full or, if that takes long, at least twice the latest one.
     double nextScale() const;
-    /// Tells now and then how far the picture is that is drawn at a scale.
+    /// Reports from time to time how far the image at a scale is drawn.
     void tellProgress(double scale);
     Progress announced() const;
     std::string drawingText(double scale) const;
     std::optional<double> drawingShare() const;
-    /// Draws no picture, but has light for the next one; the line below the picture says how far it is.
+    /// Diffuses a slice of irradiance for the next image, but draws none; the status line shows the progress.
     bool spreadSlice(Screen::Reach reach);
-    /// The next of the shifted pictures.
+    /// Draws the next of the shifted images.
     void smooth();
-    /// Before the first picture of a kind, and before one that stays for which light is spread anew, the window shows
-    /// for one frame why it will wait.
+    /// Before the first image of a kind, and before an image that stays and recomputes its diffused irradiance, the
+    /// window shows for one frame why it will wait.
     bool isToBeAnnounced(Screen::Stay stay);
-    /// Whether something came while a picture is drawn that is more urgent. A picture of moving things is worth having
-    /// though they have moved on. The whole one is not; but a pointer that only wanders may give it up twice at most.
+    /// Whether more urgent input is pending during a draw. Hovering never interrupts an image drawn while something
+    /// moves, which is useful even if outdated; it interrupts an idle image at most twice.
     bool isInterrupted(bool isAtRest);
     bool drawAt(double scale, Screen::Stay stay, bool isAtRest);
-    /// Says what a picture lacks where the one before did not.
+    /// Reports what an image lacks, unless the previous one lacked it too.
     void note(std::string& said, std::string lacks);
 
     State& state_;
@@ -87,15 +87,15 @@ private:
     Screen::Wanted wanted_;
     bool isDescribed_ = true;
     std::uint64_t pictures_ = 0;
-    std::uint64_t kinds_ = 0; ///< of pictures, one after the other
-    int announcements_ = 0;   ///< frames for which the next picture has been announced
+    std::uint64_t kinds_ = 0; ///< number of the latest image's kind
+    int announcements_ = 0;   ///< frames in which the next image has been announced
     int givenUp_ = 0;
     bool gaveUpAtRest_ = false;
-    bool wasUnlike_ = false;                     ///< the latest picture took more than later ones like it will
-    double nextTold_ = 0.0;                      ///< when progress is told next
-    std::optional<Screen::Wanted> cancelled_;    ///< is drawn no further
-    std::string drawingFault_;                   ///< why the latest picture that failed did
-    std::string missingTextures_, unseenSpread_; ///< of the latest picture; a notice has said so
+    bool wasUnlike_ = false;                     ///< the latest image cost more than later ones of its kind will
+    double nextTold_ = 0.0;                      ///< when progress is shown next
+    std::optional<Screen::Wanted> cancelled_;    ///< not drawn any further
+    std::string drawingFault_;                   ///< error of the latest image that failed
+    std::string missingTextures_, unseenSpread_; ///< of the latest image; reported by a notice
 };
 
 } // namespace tessera::viewer

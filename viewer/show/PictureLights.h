@@ -7,21 +7,20 @@
 
 namespace tessera::viewer {
 
-/// How many lights the pixels of a drawn picture visit at their opaque surfaces, by the light lists that its frame
-/// used.
+/// Number of lights that the pixels of a drawn image visit at their opaque surfaces, by the light lists of its frame.
 class PictureLights {
 public:
-    /// Whether pictures of a view tell: what they show is added up over lights, by a technique that visits them at each
-    /// pixel, which is a single sample. A frame has one exactly where one is asked for: techniques and drivers that
-    /// have no more refuse the others (engine/ChooseSamples.h).
+    /// Whether images of a view have these numbers: the view sums over lights, and the technique visits them per pixel,
+    /// with a single sample. A frame has one sample exactly if one is requested: techniques and drivers that support no
+    /// more refuse the others (engine/ChooseSamples.h).
     static bool areTold(const engine::ViewRequest& view);
 
-    /// Of the renderer's latest frame, of such a view. Waits for the GPU.
+    /// For the renderer's latest frame, of such a view. Waits for the GPU.
     explicit PictureLights(const engine::Renderer& renderer)
         : lists_(renderer.downloadLists()), depth_(renderer.downloadDepth()) {}
 
-    /// At a pixel from the upper left: as many as the view `lights` shows, where the surface takes light and nothing
-    /// transparent is before it. None where nothing opaque is.
+    /// At a pixel from the upper left: the number that the view `lights` shows, if the surface is lit and nothing
+    /// transparent is in front of it. None without an opaque surface.
     std::optional<std::size_t> visitedAt(glm::ivec2 pixel) const;
 
 private:

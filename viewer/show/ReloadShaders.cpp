@@ -9,7 +9,7 @@ namespace tessera::viewer {
 
 void reloadShaders(shader::ProgramLibrary& library, State& state, const EventLog& log, bool isAsked) {
     const shader::Reloading done = library.reload();
-    std::map<std::string, std::vector<std::string>> programs; // by the fault that they share
+    std::map<std::string, std::vector<std::string>> programs; // by the error that they share
     for (const shader::ShaderFault& fault : done.faults) {
         std::vector<std::string>& having = programs[fault.text];
         if (!fault.program.empty()) having.push_back(fault.program);

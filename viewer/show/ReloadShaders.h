@@ -5,8 +5,8 @@
 
 namespace tessera::viewer {
 
-/// Compiles the programs whose sources have changed, and shows their faults, or a notice of success. `isAsked`: by the
-/// user, who learns too that nothing has changed.
+/// Compiles the programs whose sources have changed, and shows their errors, or a notice of success. `isAsked`:
+/// requested by the user, who is also notified if nothing has changed.
 void reloadShaders(shader::ProgramLibrary& library, State& state, const EventLog& log, bool isAsked);
 
 } // namespace tessera::viewer

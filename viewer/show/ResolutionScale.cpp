@@ -6,13 +6,13 @@
 namespace tessera::viewer {
 namespace {
 
-/// Of the latest picture, against those before.
+/// Weight of the latest image's time, against earlier ones.
 constexpr double kFreshShare = 0.5;
-/// A larger picture must fit by prediction with this much room, so that the scale does not flicker.
+/// A larger image must be predicted to take less than this fraction of the target, so that the scale does not flicker.
 constexpr double kRoom = 0.85;
-/// What smaller pictures must save for it to be worth their being smaller.
+/// Least speed-up that justifies a smaller image.
 constexpr double kWorthwhile = 1.15;
-/// Pictures after which the time of a picture at another scale is forgotten, because the scene and the machine's load
+/// Number of images after which the time at another scale is forgotten, because the scene and the machine's load
 /// change.
 constexpr int kOldest = 30;
 constexpr int kPicturesBelieved = 2;
@@ -43,7 +43,7 @@ ResolutionScale::Cost ResolutionScale::cost() const {
     }
     if (weights == 0.0) return {};
     const double spread = weights * xx - x * x;
-    if (spread <= 1e-9 * weights * xx) return {0.0, xy / xx}; // one scale: as if pixels were all that costs
+    if (spread <= 1e-9 * weights * xx) return {0.0, xy / xx}; // a single scale: assumes that only pixels cost
     const double wholeMs = std::max((weights * xy - x * y) / spread, 0.0);
     const double frameMs = (y - wholeMs * x) / weights;
     if (frameMs >= 0.0) return {frameMs, wholeMs};
@@ -69,13 +69,13 @@ void ResolutionScale::drew(double scale, double ms) {
     else
         taken = Sample{kFreshShare * ms + (1.0 - kFreshShare) * taken->ms, std::min(ms, taken->leastMs),
                        taken->count + 1, 0};
-    // A smaller picture takes no longer: what is remembered of it was of another load, such as shadow maps.
+    // A smaller image takes no longer: a longer time is outdated, or included work such as shadow maps.
     for (std::size_t smaller = stepOf(scale) + 1; smaller < kScales.size(); ++smaller)
         if (samples_[smaller] && samples_[smaller]->leastMs > kWorthwhile * ms) samples_[smaller].reset();
     const std::size_t now = stepOf(scale_);
     const std::size_t last = kScales.size() - 1;
-    // That smaller pictures gain nothing is believed only once the smallest was seen, and not on the word of one: it
-    // may have filled what later ones find, such as shadow maps.
+    // The gain of smaller images is known only when the smallest was drawn, and not by a single one: it may have
+    // computed results that later ones reuse, such as shadow maps.
     const bool isKnown = samples_[last] && samples_[last]->count >= kPicturesBelieved;
     const double enoughMs = isKnown ? kWorthwhile * samples_[last]->leastMs : 0.0;
     std::size_t step = 0;

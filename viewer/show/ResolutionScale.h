@@ -5,24 +5,24 @@
 
 namespace tessera::viewer {
 
-/// Sides of moving pictures as shares of the whole one's.
+/// Scales of images drawn while something moves: sides relative to the full-resolution image.
 inline constexpr std::array kScales{1.0, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
 
-/// Chooses how many pixels pictures have while something moves, so that each is drawn within a target time; at rest the
-/// picture is drawn whole. It estimates the fixed cost of a frame (geometry and the like) and the cost of a pixel from
-/// the times of pictures.
+/// Chooses the resolution while something moves, so that each image is drawn within a target time; idle images have
+/// full resolution. Estimates the fixed cost of a frame (geometry and the like) and the cost per pixel from measured
+/// times.
 class ResolutionScale {
 public:
     explicit ResolutionScale(double targetMs) : targetMs_(targetMs) {}
 
-    /// Side of the next moving picture, one of kScales. Where no scale meets the target, one below which hardly
-    /// anything would be gained.
+    /// Scale of the next image while something moves, one of kScales. If no scale meets the target, one below which
+    /// hardly anything would be gained.
     double next() const { return scale_; }
-    /// A picture took so long. What was spent on compiling shaders is to be left out by the caller.
+    /// Records the time of an image. The caller must exclude compiling shaders.
     void drew(double scale, double ms);
-    /// What a picture at one of kScales would take.
+    /// Predicted time of an image at one of kScales.
     double predictedMs(double scale) const;
-    /// Another technique, scene or the like: nothing is known of its cost but `guess`, a scale to begin with.
+    /// Forgets all costs, for another technique, scene or the like. `guess` is the initial scale.
     void restart(double guess);
 
 private:
@@ -38,9 +38,9 @@ private:
     double scale_ = kScales.front();
     struct Sample {
         double ms = 0.0;      ///< smoothed
-        double leastMs = 0.0; ///< of any
-        int count = 0;        ///< pictures that were so large
-        int age = 0;          ///< pictures since
+        double leastMs = 0.0; ///< the shortest
+        int count = 0;        ///< images at this scale
+        int age = 0;          ///< images since the latest of them
     };
     std::array<std::optional<Sample>, kScales.size()> samples_; ///< by scale
 };

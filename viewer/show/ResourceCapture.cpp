@@ -11,9 +11,9 @@
 namespace tessera::viewer {
 namespace {
 
-constexpr std::size_t kMostWords = std::size_t(1) << 22; ///< that are read of a buffer
+constexpr std::size_t kMostWords = std::size_t(1) << 22; ///< read from a buffer at most
 
-/// Has frames keep a resource while one lives, over zeros where no pass writes.
+/// While one exists, frames keep a resource, zero-initialised where no pass writes.
 class KeptInFrames {
 public:
     KeptInFrames(engine::Renderer& renderer, const std::string& name) : renderer_(renderer) {
@@ -31,7 +31,7 @@ private:
     engine::Renderer& renderer_;
 };
 
-/// The same texture with one sample a texel.
+/// Resolves a texture to one sample per texel.
 gpu::Texture resolved(const gpu::Texture& texture) {
     graph::TextureDesc desc = texture.desc();
     desc.samples = 1;
@@ -51,7 +51,7 @@ void readTexture(const gpu::Texture& texture, int level, int layer, ResourceCont
     const graph::TextureDesc size = graph::mipDesc(texture.desc(), level);
     contents.sizeTexels = {size.width, size.height};
     contents.texels = texture.downloadComponents(level, layer);
-    // GL's rows run from the bottom.
+    // GL's rows start at the bottom.
     for (int row = 0; row < size.height / 2; ++row)
         std::swap_ranges(contents.texels.begin() + std::ptrdiff_t(row) * size.width,
                          contents.texels.begin() + std::ptrdiff_t(row + 1) * size.width,
@@ -85,7 +85,7 @@ bool ResourceCapture::update(Facts& facts, const State& state, Screen& screen, c
 }
 
 bool ResourceCapture::read(Screen& screen, const Source& source, const std::function<bool()>& givesUp) {
-    read_ = source; // also where it fails: the same would fail again
+    read_ = source; // even if it fails: a retry would fail again
     engine::Renderer& renderer = *screen.renderer();
     const Look& look = source.wanted.looks[std::size_t(source.side)];
     try {

@@ -9,29 +9,27 @@
 
 namespace tessera::viewer {
 
-/// Reads the resource of the render graph that the window is to show, once the picture rests: by a frame that is drawn
-/// for that alone.
+/// Reads the resource of the render graph that the window displays, when the image is idle, by an extra frame.
 class ResourceCapture {
 public:
-    /// Brings Facts::resource up to date with the active side of the pictures. Whether it changed. `givesUp` ends the
-    /// frame where input waits; then the next rest tries again. Throws as Renderer::draw does, and then does not try
-    /// again.
+    /// Updates Facts::resource for the active side. Returns whether it changed. `givesUp` aborts the frame for pending
+    /// input; the next idle time retries. Throws as Renderer::draw does, and then does not retry.
     bool update(Facts& facts, const State& state, Screen& screen, const Screen::Wanted& wanted, bool isAtRest,
                 const std::function<bool()>& givesUp);
-    /// Something is to be read once all rests.
+    /// A resource is still to be read, when everything is idle.
     bool awaitsRest() const { return awaitsRest_; }
-    /// Shaders have changed: it is to be read anew.
+    /// Shaders have changed: it is to be read again.
     void forget() { read_.reset(); }
 
 private:
-    /// What the contents follow from.
+    /// The inputs of the contents.
     struct Source {
         std::string name;
         int level = 0, layer = 0, side = 0;
         Screen::Wanted wanted;
         bool operator==(const Source&) const = default;
     };
-    /// How they are shown.
+    /// Display settings of the contents.
     struct Shown {
         ResourceView::Channels channels;
         bool fitsRange;
@@ -39,15 +37,15 @@ private:
         bool isCurved;
         bool operator==(const Shown&) const = default;
     };
-    /// Whether it was not given up.
+    /// Returns false if aborted.
     bool read(Screen& screen, const Source& source, const std::function<bool()>& givesUp);
     void show(Facts& facts, const ResourceView& view);
 
     std::optional<Source> read_; ///< or failed
-    std::optional<Shown> shown_; ///< of what was read
+    std::optional<Shown> shown_; ///< settings of the displayed contents
     std::shared_ptr<ResourceContents> contents_;
     std::unique_ptr<gpu::Texture> picture_;
-    std::unique_ptr<gpu::Texture> retired_; ///< that the interface of this frame, laid out already, still shows
+    std::unique_ptr<gpu::Texture> retired_; ///< still used by the interface of this frame, which is already laid out
     bool awaitsRest_ = false;
 };
 

@@ -9,11 +9,11 @@
 
 namespace tessera::viewer {
 
-/// The small pictures of the built-in scenes, which the program carries (viewer/thumbnails, drawn by
-/// tools/docs_pictures.py), on the GPU.
+/// Thumbnails of the built-in scenes as GPU textures. The program embeds their images (viewer/thumbnails, drawn by
+/// tools/docs_pictures.py).
 class SceneThumbnails {
 public:
-    /// GL's names by scene; made at the first call. Throws as gpu::Texture does.
+    /// GL texture names by scene, created at the first call. Throws as gpu::Texture does.
     const std::map<std::string, std::uint32_t, std::less<>>& textures();
 
 private:

@@ -17,12 +17,12 @@
 namespace tessera::viewer {
 namespace {
 
-/// Input is to be answered within 100 ms. What comes just after a frame began waits for two of them, each with its
-/// panels and the time to show both, or for a piece of one that is given up: so much is left for a picture.
+/// Input must be answered within 100 ms. Input that arrives just after a frame has begun waits for two frames, each
+/// with panels and presentation, or for one piece of an aborted frame. This time is left for an image.
 constexpr double kMovingMs = 36.0;
-/// The first picture of a kind, of which nothing is known.
+/// Initial scale, while no times are known.
 constexpr double kSoftwareGuess = 0.25;
-/// Height of the picture that a slice of light is drawn with, which nobody sees.
+/// Height of the image drawn for a slice of diffusion, which is not displayed.
 constexpr int kSliceRows = 48;
 
 constexpr glm::vec4 kBehindPicture{0.05f, 0.05f, 0.055f, 1.0f};
@@ -39,7 +39,7 @@ std::span<const Look> looksOf(const Screen::Wanted& wanted) {
     return std::span(wanted.looks).first(std::size_t(wanted.sides));
 }
 
-/// Frames add no more light than that while one lives.
+/// While one exists, frames diffuse no more irradiance than the limit.
 class LimitedSpread {
 public:
     LimitedSpread(engine::Renderer& renderer, std::optional<engine::SpreadLimit> limit) : renderer_(renderer) {
@@ -57,7 +57,7 @@ glm::ivec2 scaled(glm::ivec2 size, double scale) {
     return glm::max(glm::ivec2(glm::round(glm::dvec2(size) * scale)), glm::ivec2(1));
 }
 
-/// At least as wide for its height as the whole picture, so that it sees all that that sees.
+/// At least as wide relative to its height as the full image, so that everything in its view is covered.
 glm::ivec2 sliceSize(glm::ivec2 whole) {
     const int rows = std::min(kSliceRows, whole.y);
     return {int(std::ceil(double(whole.x) * rows / whole.y)), rows};
@@ -71,14 +71,14 @@ void Screen::open(const OpenScene& scene) {
     renderer_ = std::make_unique<engine::Renderer>(context_, scene.scene());
     renderer_->environmentChanged(scene.filteredEnvironment());
     scene_ = &scene;
-    // Without it a software rasteriser's passes have no times (GraphBackend.h).
+    // Required for pass times of software rasterisers (GraphBackend.h).
     renderer_->backend().setProfiling(context_.capabilities().isSoftware);
     geometryRevision_ = scene.geometryRevision();
     materialRevision_ = scene.materialRevision();
     environmentRevision_ = scene.environmentRevision();
     forget();
     programs_.reset();
-    known_.clear(); // its renderer has yet to compile them
+    known_.clear(); // the new renderer has yet to compile them
     kind_.reset();
     pace_ = {};
     latestMs_ = 0.0;
@@ -102,7 +102,7 @@ const std::set<std::string>& Screen::programsOf(const Wanted& wanted) const {
             for (const shader::ProgramDesc& program : renderer_->programsOf(look.technique, look.settings))
                 programs.keys.insert(program.key());
     } catch (const InputError&) {
-        programs.keys.clear(); // drawing it fails likewise, and tells why
+        programs.keys.clear(); // drawing fails likewise, and reports why
     }
     return programs.keys;
 }
@@ -144,7 +144,7 @@ engine::SpreadProgress Screen::spreadSlice(const Wanted& wanted, Reach reach) {
         throw;
     }
     if (renderer_->programs().size() == programs) pace_.took(clock.elapsedMs());
-    // What is there is of use to pictures that pass.
+    // Images that do not stay can use what is there.
     spreadLight_.drew(scene_->scene(), {&look, 1}, wanted.sceneEdits, renderer_->backend().mostIdleFrames());
     const engine::SpreadProgress progress = renderer_->spreadProgress();
     if (progress.isDone()) spreadFor_ = wanted;
@@ -175,7 +175,7 @@ double Screen::scaleOf(const Wanted& wanted) const {
     double scale = 1.0;
     for (int side = 0; side < wanted.sides && failed_ != wanted; ++side) {
         const Made* const made = madeFor(wanted, side);
-        // So that a whole one follows.
+        // A lower scale, so that a complete image follows.
         scale = std::min(scale, made == nullptr ? 0.0 : made->lacksLight ? made->scale * kScales[1] : made->scale);
     }
     return scale;
@@ -205,7 +205,7 @@ bool Screen::canDiffer() const {
 Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool keepsLights,
                            const std::function<bool()>& givesUp) {
     const bool isAnew = spreadsAnew(wanted), isCoarse = isAnew && stay != Stay::Stays;
-    // Graphics cards light what comes into view within the frame.
+    // GPUs diffuse irradiance of newly visible surfaces within the frame.
     const bool isLimited = !isAnew && stay != Stay::Stays && context_.capabilities().isSoftware;
     const bool mayLack = isCoarse || (isLimited && lacksLight(wanted, Reach::Seen));
     if (mayLack && stay == Stay::Passes) scale = std::min(scale, kScales[1]);
@@ -248,15 +248,15 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
             result.missingTextures = renderer_->missingTextures();
             if (!isCoarse) result.unseenSpread = renderer_->unseenSpread();
             isLacking = isLacking || !renderer_->spreadProgress().isDone();
-            banded.reset(); // copying must not be given up half way
+            banded.reset(); // copying must not be aborted half way
             DrawnPicture& taken = side == 0 && result.isOfSide[1] ? waiting_ : pictures_[std::size_t(side)];
-            if (&taken == &pictures_[std::size_t(side)]) made_[std::size_t(side)].reset(); // should copying fail
-            // A picture that stays may be compared or inspected later.
+            if (&taken == &pictures_[std::size_t(side)]) made_[std::size_t(side)].reset(); // in case copying fails
+            // An image that stays may be compared or inspected later.
             taken.take(*renderer_, look, {wanted.keepsRadiance || stay == Stay::Stays, keepsLights});
             if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
         }
     } catch (const graph::Interrupted&) {
-        result.gaveUp = true; // the pictures are as they were
+        result.gaveUp = true; // the images are unchanged
         return result;
     } catch (...) {
         failed_ = wanted;
@@ -274,7 +274,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
     kind_ = wanted.looks;
     const std::set<std::string>& programsDrawn = programsOf(wanted);
     known_.insert(programsDrawn.begin(), programsDrawn.end());
-    if (isLacking) { // whatever took it away
+    if (isLacking) { // whatever removed it
         spreadFor_.reset();
         isAllSpread_ = false;
     }
@@ -282,7 +282,7 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
     const bool compiled = renderer_->programs().size() != programs;
     result.isUnlike = isNew || compiled || (isAnew && !isCoarse);
     if (result.isUnlike) return result;
-    // Times of pictures are those of all sides.
+    // Only times of all sides together count.
     if (std::count(result.isOfSide.begin(), result.isOfSide.begin() + wanted.sides, true) != wanted.sides)
         return result;
     resolution_.drew(scale, result.ms);
@@ -312,13 +312,13 @@ bool Screen::smooth(const Wanted& wanted, const std::function<bool()>& givesUp) 
             gpu::finish();
         }
         smoothing_.add(renderer_->programs(), renderer_->radianceTexture());
-        constexpr int kFirstShown = 8; // fewer are still rough
+        constexpr int kFirstShown = 8; // fewer are still noisy
         if (smoothing_.count() % kFirstShown == 0) smoothing_.showMean(renderer_->programs(), look.settings);
         return true;
     } catch (const graph::Interrupted&) {
         return false;
     } catch (...) {
-        isSmoothingAtFault_ = true; // the same would fail again
+        isSmoothingAtFault_ = true; // a retry would fail again
         throw;
     }
 }
@@ -326,7 +326,7 @@ bool Screen::smooth(const Wanted& wanted, const std::function<bool()>& givesUp) 
 void Screen::prepareDifference(float factor) {
     if (!canDiffer() || (!differenceIsStale_ && factor == differenceFactor_)) return;
     differenceFactor_ = factor;
-    differenceIsStale_ = false; // also where it fails: the same would fail again
+    differenceIsStale_ = false; // even if it fails: a retry would fail again
     difference_.update(renderer_->programs(), *pictures_[0].radiance(), *pictures_[1].radiance(), factor);
 }
 
@@ -336,7 +336,7 @@ void Screen::colorCounts(const std::function<float(int side, frame::DebugView vi
         if (!shown.isThere() || shown.radiance() == nullptr || !showsCounts(shown.look())) continue;
         const float wanted = scaleLog2(side, shown.look().settings.view);
         if (shown.countScaleLog2() == wanted) continue;
-        shown.setCountScale(wanted); // also where it fails: the same would fail again
+        shown.setCountScale(wanted); // even if it fails: a retry would fail again
         countColors_.update(renderer_->programs(), *shown.radiance(), shown.display(), wanted);
     }
 }
@@ -346,7 +346,7 @@ void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare c
     gpu::bindWindowFramebuffer(windowPixels.x, windowPixels.y);
     gpu::clearColor(0, kBehindPicture);
     if (!pictures_[0].isThere() || area.width < 1 || area.height < 1) return;
-    // Of the whole picture, of which the scissor leaves what is in the area; from the lower left.
+    // The rectangle of the whole image, from the lower left; the scissor keeps the part in the area.
     const int times = magnification.times;
     const glm::ivec2 corner = glm::round(magnification.corner * float(times) * glm::vec2(area.width, area.height));
     const gpu::Rectangle whole{area.x - corner.x, area.y + area.height + corner.y - times * area.height,
@@ -367,7 +367,7 @@ void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare c
     } else {
         blit(showsSmoothed() ? *smoothing_.shown() : pictures_[0].display(), 0, area.width);
     }
-    gpu::bindWindowFramebuffer(windowPixels.x, windowPixels.y); // without the scissor
+    gpu::bindWindowFramebuffer(windowPixels.x, windowPixels.y); // disables the scissor test
 }
 
 double Screen::meanLuminance() const {

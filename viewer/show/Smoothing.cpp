@@ -25,8 +25,8 @@ shader::ProgramDesc meanProgram(const frame::FrameSettings& settings) {
                                   {"TONE_MAP", fmt::format("{}u", unsigned(settings.toneMap))}});
 }
 
-/// The second dimension of Sobol's sequence, which with van der Corput's has one of 2^n points in each of 2^n boxes of
-/// any shape. Source: Kollig and Keller 2002, "Efficient Multidimensional Sampling".
+/// The second dimension of Sobol's sequence. Combined with van der Corput's, it places one of 2^n points in each of 2^n
+/// boxes of any shape. Source: Kollig and Keller 2002, "Efficient Multidimensional Sampling".
 double sobol(std::uint32_t number) {
     std::uint32_t fraction = 0;
     for (std::uint32_t direction = 1u << 31u; number != 0; number >>= 1u, direction ^= direction >> 1u)
@@ -42,7 +42,7 @@ Target& ofSize(std::unique_ptr<Target>& target, const char* label, graph::Format
 } // namespace
 
 glm::vec2 Smoothing::offsetPixels(int number) {
-    constexpr double kMiddle = 0.5 / kPictures; // of the strips that 32 of them are alone in, in x and in y
+    constexpr double kMiddle = 0.5 / kPictures; // centres each of the 32 points in its strip, in x and in y
     const double x = frame::vanDerCorput(std::uint32_t(number)), y = sobol(std::uint32_t(number));
     return {float(x + kMiddle - 0.5), float(y + kMiddle - 0.5)};
 }

@@ -9,30 +9,30 @@
 
 namespace tessera::viewer {
 
-/// The mean of pictures that are shifted by parts of a pixel, in linear radiance: the edges of what is drawn get the
-/// share of each pixel that they cover, as if it had so many samples, whatever the technique.
+/// Antialiasing by accumulation: the mean of images shifted by sub-pixel offsets, in linear radiance. Edges get their
+/// coverage of each pixel as with that many samples, for every technique.
 class Smoothing {
 public:
     static constexpr int kPictures = 32;
-    /// By how much one of them is shifted, at most half a pixel either way; they spread evenly, the first few too.
+    /// Offset of one of them, at most half a pixel either way; evenly distributed, even the first few.
     static glm::vec2 offsetPixels(int number);
 
     void restart();
-    /// Adds the next picture: RGBA32F, of the size of those before. Throws gpu::ShaderError.
+    /// Adds the next image: RGBA32F, of the same size as the previous ones. Throws gpu::ShaderError.
     void add(shader::ProgramLibrary& programs, const gpu::Texture& radiance);
-    int count() const { return count_; } ///< of pictures that were added
+    int count() const { return count_; } ///< of added images
     bool isDone() const { return count_ == kPictures; }
-    /// The sum of all that were added; null: none was.
+    /// The sum of all added images; null if there are none.
     const Target* sum() const { return count_ > 0 ? sums_[std::size_t(count_ % 2)].get() : nullptr; }
-    /// Makes the picture of their mean as a display shows the lit picture. Throws gpu::ShaderError.
+    /// Computes the mean image, encoded for display as the lit image is. Throws gpu::ShaderError.
     void showMean(shader::ProgramLibrary& programs, const frame::FrameSettings& settings);
-    /// The one that was made last; null: none since restart().
+    /// The latest mean image; null if there is none since restart().
     const Target* shown() const { return isShown_ ? display_.get() : nullptr; }
 
 private:
     int count_ = 0;
     bool isShown_ = false;
-    std::array<std::unique_ptr<Target>, 2> sums_; ///< the latest, and the one before
+    std::array<std::unique_ptr<Target>, 2> sums_; ///< the latest, and the previous one
     std::unique_ptr<Target> display_;
     std::unique_ptr<gpu::Buffer> constants_;
 };

@@ -12,7 +12,7 @@ bool spreads(const scenes::Scene& scene, const Look& look) {
     return frame::showsLitPicture(look.settings.view) && scenes::anySpreads(scene, look.settings.subsurface);
 }
 
-/// Whether the light that spreads over surfaces in b is that in a.
+/// Whether a and b have the same diffused irradiance.
 bool hasSameSpread(const Look& a, const Look& b) {
     Look like = a;
     like.aside = b.aside;
@@ -21,9 +21,9 @@ bool hasSameSpread(const Look& a, const Look& b) {
     return like == b;
 }
 
-/// Of a slice, which is not given up: together with the picture that answers it is to fit into little more than 100 ms.
+/// Target time of a slice, which cannot be aborted: with the image that answers input, little more than 100 ms.
 constexpr double kSliceMs = 80.0;
-/// But what a slice costs besides its tiles, a frame and all of the mesh, is not to be more than half of it.
+/// A slice's fixed cost, a frame with the whole mesh, is at most half of its time.
 constexpr double kOfLeast = 2.0;
 constexpr std::size_t kMostTiles = 65536;
 
@@ -42,7 +42,7 @@ std::optional<Look> sharedSpread(const scenes::Scene& scene, std::span<const Loo
 void SpreadPace::took(double ms) {
     leastMs_ = leastMs_ ? std::min(*leastMs_, ms) : ms;
     const double wantedMs = std::max(kSliceMs, kOfLeast * *leastMs_);
-    // Tiles differ, so that one quick slice does not say that all will be.
+    // Tiles differ: one fast slice does not predict the others.
     const double factor = std::clamp(wantedMs / std::max(ms, 1e-3), 0.25, 2.0);
     tiles_ = std::clamp(std::size_t(double(tiles_) * factor), std::size_t(1), kMostTiles);
 }

@@ -7,35 +7,35 @@
 
 namespace tessera::viewer {
 
-/// Side of the atlases, in texels, of pictures that pass while the light they spread over surfaces changes.
+/// Side of the irradiance atlases, in texels, of images that do not stay, while their irradiance changes.
 inline constexpr int kPassingAtlasTexels = 128;
 
-/// The first of the looks that spreads light over surfaces, where the light is the same in all that do; none where none
-/// does, or where each needs its own.
+/// The first look that diffuses irradiance, if all that do so have the same irradiance; none if none does, or if they
+/// differ.
 std::optional<Look> sharedSpread(const scenes::Scene& scene, std::span<const Look> looks);
 
-/// How many tiles are lit at once while nobody waits for a picture: so many that input is answered all the same.
+/// Number of tiles to light in one slice while idle: as many as keep the response to input fast.
 class SpreadPace {
 public:
-    std::size_t tiles() const { return tiles_; } ///< first 1, which tells what a slice costs besides
-    /// A slice of so many took so long, without what was spent on compiling.
+    std::size_t tiles() const { return tiles_; } ///< initially 1, to measure a slice's fixed cost
+    /// Records the time of a slice of tiles() tiles, without compiling shaders.
     void took(double ms);
 
 private:
     std::size_t tiles_ = 1;
-    std::optional<double> leastMs_; ///< of all slices
+    std::optional<double> leastMs_; ///< of any slice
 };
 
-/// What the light that the renderer keeps spread over surfaces was spread for. To spread it anew over whole atlases
-/// takes seconds, so a picture that only passes uses small ones.
+/// Tracks what the renderer's diffused irradiance was computed for. Recomputing it for full atlases takes seconds, so
+/// images that do not stay use small ones.
 class SpreadLight {
 public:
-    /// Whether pictures of these looks, drawn one after the other, need light that is not kept. `edits` counts those of
-    /// lights and materials.
+    /// Whether images of these looks, drawn one after the other, need irradiance that is not kept. `edits` is
+    /// OpenScene::pictureEdits().
     bool isAnew(const scenes::Scene& scene, std::span<const Look> looks, std::uint64_t edits) const;
-    /// They were drawn, with whole atlases. The renderer drops what so many pictures one after the other do not use.
+    /// Records that they were drawn with full atlases. The renderer drops what `mostIdlePictures` images do not use.
     void drew(const scenes::Scene& scene, std::span<const Look> looks, std::uint64_t edits, int mostIdlePictures);
-    /// Nothing of use is kept: small atlases are to take its place, or the picture may be given up.
+    /// Nothing useful is kept: small atlases will replace it, or the image may be aborted.
     void forget() { kept_.reset(); }
 
 private:
@@ -44,7 +44,7 @@ private:
         std::uint64_t edits = 0;
         int idlePictures = 0;
     };
-    std::optional<Kept> kept_; ///< of the last look that spread light: the renderer keeps one
+    std::optional<Kept> kept_; ///< of the last look that diffused irradiance: the renderer keeps one
 };
 
 } // namespace tessera::viewer

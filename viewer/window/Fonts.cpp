@@ -15,7 +15,7 @@ namespace {
 
 static_assert(sizeof(ImWchar) == sizeof(std::uint16_t));
 
-/// Where distributions put fonts of Chinese, Japanese and Korean; the first that is there counts.
+/// Font files of distributions for Chinese, Japanese and Korean; the first that exists is used.
 constexpr const char* kEastAsianFontFiles[] = {
     "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc", // fonts-noto-cjk
     "/usr/share/fonts/google-noto-cjk/NotoSansCJK-Regular.ttc",
@@ -26,7 +26,7 @@ constexpr const char* kEastAsianFontFiles[] = {
     "C:/Windows/Fonts/msyh.ttc",
 };
 
-/// Adds the bytes of a font, which are copied: the atlas frees them.
+/// Adds a font from a copy of its bytes, which the atlas frees.
 void add(std::string_view bytes, const ImFontConfig& config) {
     void* const owned = ImGui::MemAlloc(bytes.size());
     std::memcpy(owned, bytes.data(), bytes.size());

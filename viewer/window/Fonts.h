@@ -6,14 +6,14 @@
 
 namespace tessera::viewer {
 
-/// The height of titles, such as a view's name, beside words of a height: whole pixels.
+/// Font size of titles, such as a view's name, for a font size of text: whole pixels.
 inline float titlePixels(float heightPixels) {
     return std::floor(1.8f * heightPixels);
 }
 
-/// Puts fonts that have these letters in the place of those that Dear ImGui has: one of a height in pixels, and last
-/// one of titles. Those of Chinese, Japanese and Korean are the system's, where it has any. `ranges` is what the
-/// letters are handed over in, and must stay until the next call.
+/// Replaces the fonts of Dear ImGui by fonts with these letters: one of a height in pixels, and last one for titles.
+/// Chinese, Japanese and Korean use a system font, if there is one. `ranges` receives the ranges of letters, and must
+/// stay until the next call.
 void applyFonts(const Letters& letters, float heightPixels, std::vector<std::uint16_t>& ranges);
 
 } // namespace tessera::viewer

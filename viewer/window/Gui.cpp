@@ -15,7 +15,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Height of a line of text. Dear ImGui's own font is drawn for this one.
+/// Height of a line of text. Dear ImGui's default font is designed for this size.
 constexpr float kFontPixels = 13.0f;
 
 void apply(const InputEvent& event, ImGuiIO& io) {
@@ -37,7 +37,7 @@ void apply(const InputEvent& event, ImGuiIO& io) {
         return;
     case InputEvent::Kind::Focus:
         io.AddFocusEvent(event.down);
-        // Keys that are let go while another window has the focus are never heard of.
+        // Key releases are not reported while another window has the focus.
         if (!event.down) std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
         return;
     }
@@ -72,16 +72,16 @@ void Gui::applyScale(float scale) {
 }
 
 void Gui::beginFrame(std::span<const InputEvent> events) {
-    ImGui_ImplOpenGL3_NewFrame(); // the first makes what is on the GPU
+    ImGui_ImplOpenGL3_NewFrame(); // the first call creates the GPU resources
     if (letters_.takeNew() || window_.contentScale() != scale_) {
-        // Nothing else: Dear ImGui 1.86 takes buffers that are made anew to be as large as those before.
+        // Only the font texture: Dear ImGui 1.86 assumes that recreated buffers keep their size.
         ImGui_ImplOpenGL3_DestroyFontsTexture();
         applyScale(window_.contentScale());
         ImGui_ImplOpenGL3_CreateFontsTexture();
     }
     ImGui_ImplGlfw_NewFrame();
     ImGuiIO& io = ImGui::GetIO();
-    // The backend tells where pointer and buttons are now; a frame shows them as they were when its events happened.
+    // The backend sets the current pointer and buttons; a frame uses those at the time of its events.
     io.MousePos = {position_.x, position_.y};
     std::copy(std::begin(buttonsDown_), std::end(buttonsDown_), std::begin(io.MouseDown));
     for (const InputEvent& event : events) {
@@ -113,7 +113,7 @@ void Gui::drawOver(const std::function<void(ImDrawList&)>& fill) {
     list.PushClipRectFullScreen();
     fill(list);
     ImDrawList* lists[] = {&list};
-    ImDrawData data = *ImGui::GetDrawData(); // of this window's place and size
+    ImDrawData data = *ImGui::GetDrawData(); // with this window's position and size
     data.CmdLists = lists;
     data.CmdListsCount = 1;
     data.TotalIdxCount = list.IdxBuffer.Size;

@@ -12,8 +12,8 @@ struct ImDrawList;
 
 namespace tessera::viewer {
 
-/// Dear ImGui on a window: its input and its style. It keeps no file of its own; sizes below are of a display
-/// of usual density and scale with the window's.
+/// Dear ImGui on a window: its input and its style. It keeps no settings file; sizes below are for a display of
+/// standard density and scale with the window's.
 class Gui {
 public:
     explicit Gui(Window& window);
@@ -21,9 +21,9 @@ public:
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
-    /// Has the letters of a text from the next frame on.
+    /// Adds glyphs for the letters of a text, from the next frame on.
     void learn(std::string_view text) { letters_.note(text); }
-    /// Begins a frame in which these events happened.
+    /// Begins a frame with these events.
     void beginFrame(std::span<const InputEvent> events);
     /// Ends the frame; nothing is drawn yet.
     void endFrame();
@@ -32,8 +32,8 @@ public:
     /// Draws what `fill` adds over it, before the next frame begins.
     void drawOver(const std::function<void(ImDrawList&)>& fill);
 
-    bool wantsMouse() const;    ///< the pointer is over a panel, or holds something of one
-    bool wantsKeyboard() const; ///< text is typed into a field
+    bool wantsMouse() const;    ///< the pointer is over a panel, or drags something of one
+    bool wantsKeyboard() const; ///< text is being typed into a field
     float scale() const { return scale_; }
 
 private:

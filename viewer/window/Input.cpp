@@ -11,7 +11,7 @@ bool isSwitch(const InputEvent& event) {
     return event.kind == InputEvent::Kind::Button || event.kind == InputEvent::Kind::Key;
 }
 
-/// Whether it is the press of a key, or what that writes.
+/// Whether it is a key press, or the character that it writes.
 bool isKeyPress(const InputEvent& event) {
     return (event.kind == InputEvent::Kind::Key && event.down) || event.kind == InputEvent::Kind::Character;
 }
@@ -22,7 +22,7 @@ bool isModifier(const InputEvent& event) {
            event.code <= GLFW_KEY_RIGHT_SUPER;
 }
 
-/// Whether it means something else while a modifier is held.
+/// Whether modifiers change its meaning.
 bool heedsModifiers(const InputEvent& event) {
     switch (event.kind) {
     case InputEvent::Kind::Key:
@@ -38,7 +38,7 @@ bool heedsModifiers(const InputEvent& event) {
     return false;
 }
 
-/// Whether it is the press of a key that edits text but writes none, such as Enter, Tab or an arrow.
+/// Whether it is the press of a key that edits text without writing a character, such as Enter, Tab or an arrow.
 bool isEditingKey(const InputEvent& event) {
     return event.kind == InputEvent::Kind::Key && event.down &&
            ((event.code >= GLFW_KEY_ESCAPE && event.code < GLFW_KEY_KP_0) || event.code == GLFW_KEY_KP_ENTER);
@@ -61,10 +61,10 @@ bool fits(const std::vector<InputEvent>& taken, const InputEvent& next) {
 } // namespace
 
 void InputQueue::push(const InputEvent& event) {
-    // Of a pointer on its way only the end counts; how far it went follows from where it was.
+    // Merges successive moves: only the end position counts, and the distance follows from the start position.
     if (event.kind == InputEvent::Kind::Move && !events_.empty() && events_.back().kind == InputEvent::Kind::Move &&
         events_.back().modifiers == event.modifiers) {
-        const double heardSeconds = events_.back().heardSeconds; // the path has waited since it began
+        const double heardSeconds = events_.back().heardSeconds; // the response time counts from the first one
         events_.back() = event;
         events_.back().heardSeconds = heardSeconds;
         return;

@@ -23,7 +23,7 @@ bool isIn(std::span<const Range> ranges, std::uint32_t letter) {
         ranges, [letter](const Range& range) { return letter >= range.first && letter <= range.second; });
 }
 
-/// The letter that a text begins with, of so many bytes.
+/// Decodes the first letter of a text, of so many bytes.
 std::uint32_t letterOf(std::string_view text, std::size_t bytes) {
     const auto byte = [text](std::size_t i) { return std::uint32_t(static_cast<unsigned char>(text[i])); };
     if (bytes == 1) return byte(0);
@@ -36,7 +36,7 @@ std::uint32_t letterOf(std::string_view text, std::size_t bytes) {
 
 void Letters::note(std::string_view text) {
     while (true) {
-        // Names of a hundred thousand files are noted in every frame, and most have none.
+        // Skips ASCII: names of a hundred thousand files are noted in every frame, most of which have nothing else.
         const auto beyond =
             std::ranges::find_if(text, [](char byte) { return (static_cast<unsigned char>(byte) & 0x80u) != 0; });
         text.remove_prefix(std::size_t(beyond - text.begin()));

@@ -6,21 +6,21 @@
 
 namespace tessera::viewer {
 
-/// The letters that the interface shows: at first those of western Europe, and whatever else occurs in texts. A font
+/// The letters that the interface needs glyphs for: those of western Europe, and any others that occur in texts. A font
 /// has tens of thousands, of which a scene needs few.
 class Letters {
 public:
-    /// Adds those of a UTF-8 text. Letters beyond 16 bits, as emoji, cannot be shown and are left out.
+    /// Adds the letters of a UTF-8 text. Those beyond 16 bits, such as emoji, are not supported and ignored.
     void note(std::string_view text);
     /// Once: whether letters were added.
     bool takeNew();
-    /// Whether there are any of Chinese, Japanese or Korean, for which a second font is needed.
+    /// Whether any of them is Chinese, Japanese or Korean, which needs a second font.
     bool hasEastAsian() const;
-    /// First and last of each row of letters, from the least on, and a 0: as Dear ImGui takes them.
+    /// First and last letter of each range, in ascending order, and a final 0: the format of Dear ImGui.
     std::vector<std::uint16_t> ranges() const;
 
 private:
-    std::set<std::uint16_t> more_; ///< than those at first
+    std::set<std::uint16_t> more_; ///< in addition to the initial ones
     bool isNew_ = false;
 };
 

@@ -6,7 +6,7 @@ namespace tessera::viewer {
 namespace {
 
 ImVec4 grey(float level, float alpha = 1.0f) {
-    // A trace of blue keeps large dark areas from looking brown beside pictures lit by warm lamps.
+    // A trace of blue keeps large dark areas from looking brown beside images lit by warm lamps.
     return {level, level * 1.02f, level * 1.08f, alpha};
 }
 
@@ -21,9 +21,9 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_ChildBg] = grey(0.0f, 0.0f);
     colors[ImGuiCol_PopupBg] = grey(0.12f);
     colors[ImGuiCol_ModalWindowDimBg] = grey(0.0f, 0.55f);
-    // Around fields, whose ground is too dark to stand out from a panel's.
+    // Around fields, whose background is too dark to stand out from a panel's.
     colors[ImGuiCol_Border] = grey(0.41f);
-    // Darker than a panel, so that the grab of a slider stands out from them and a number can be read on both.
+    // Darker than a panel, so that a slider's grab stands out from them, and numbers are readable on both.
     colors[ImGuiCol_FrameBg] = grey(0.05f);
     colors[ImGuiCol_FrameBgHovered] = grey(0.075f);
     colors[ImGuiCol_FrameBgActive] = grey(0.09f);
@@ -34,7 +34,7 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_ScrollbarGrabHovered] = grey(0.48f);
     colors[ImGuiCol_ScrollbarGrabActive] = grey(0.56f);
     colors[ImGuiCol_CheckMark] = accent(1.2f);
-    // Below the number (slideNumber()).
+    // Drawn below the number (slideNumber()).
     colors[ImGuiCol_SliderGrab] = grey(0.75f);
     colors[ImGuiCol_SliderGrabActive] = grey(0.95f);
     colors[ImGuiCol_Button] = grey(0.25f);
@@ -43,7 +43,7 @@ void applyColors(ImVec4* colors) {
     colors[ImGuiCol_Header] = accent(0.68f);
     colors[ImGuiCol_HeaderHovered] = accent(0.72f);
     colors[ImGuiCol_HeaderActive] = accent(0.76f);
-    // Titles of sections, which Dear ImGui would draw like rows of lists.
+    // Section titles, which Dear ImGui would draw like rows of lists.
     colors[ImGuiCol_Tab] = grey(0.2f);
     colors[ImGuiCol_TabHovered] = grey(0.26f);
     colors[ImGuiCol_TabActive] = grey(0.3f);

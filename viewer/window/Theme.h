@@ -2,8 +2,8 @@
 
 namespace tessera::viewer {
 
-/// Sizes and colours of the panels, for a display `scale` times as dense as usual: dark greys that leave the picture
-/// the only thing that shines, and one accent.
+/// Sizes and colours of the panels, for a display of `scale` times the standard density: dark greys, so that the image
+/// is the brightest element, and one accent.
 void applyTheme(float scale);
 
 } // namespace tessera::viewer

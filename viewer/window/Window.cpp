@@ -14,7 +14,7 @@ Window& windowOf(GLFWwindow* window) {
     return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
-/// Whoever works on a machine from afar has none; drivers are then nothing to look for.
+/// Throws if there is no display, as on remote machines: a driver error would be misleading.
 void requireDisplay() {
 #if !defined(_WIN32) && !defined(__APPLE__)
     for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY"}) {
@@ -26,7 +26,7 @@ void requireDisplay() {
 #endif
 }
 
-/// The letter that the keyboard's layout has on a key; 0: another character, or none.
+/// The letter of a key in the keyboard layout; 0 if it has none.
 int letterOn(int key, int scancode) {
     const char* const name = glfwGetKeyName(key, scancode);
     if (name == nullptr || name[0] == '\0' || name[1] != '\0') return 0;
@@ -47,7 +47,7 @@ WorkArea workArea() {
 
 std::unique_ptr<gpu::Context> makeContext(glm::ivec2 size) {
     requireDisplay();
-    // A window of any size is made first: settings may hold one that no screen has, and a driver's buffers for it.
+    // Clamps the size before the window exists: settings may exceed the screen, and so would the driver's buffers.
     const WorkArea area = glfwInit() == GLFW_TRUE ? workArea() : WorkArea{};
     gpu::ContextOptions options;
     options.kind = gpu::ContextKind::Window;

@@ -13,12 +13,12 @@ struct GLFWwindow;
 
 namespace tessera::viewer {
 
-/// The viewer's window: its OpenGL context, its input and its size. To be used on the thread that made it, but for
-/// wake().
+/// The viewer's window: its OpenGL context, its input and its size. Must be used on the thread that created it, except
+/// for wake().
 class Window {
 public:
-    /// A visible window of this size, or as much of it as the screen has. Throws std::runtime_error where there is no
-    /// display or no OpenGL 4.5.
+    /// Opens a visible window of this size, or as much as fits the screen. Throws std::runtime_error without a display
+    /// or OpenGL 4.5.
     explicit Window(glm::ivec2 sizeScreen);
     ~Window();
     Window(const Window&) = delete;
@@ -29,18 +29,18 @@ public:
 
     bool shouldClose() const;
     void close();
-    void keepOpen(); ///< though it was asked to close
+    void keepOpen(); ///< cancels a request to close
     void setClipboard(const std::string& text);
     void setTitle(const std::string& title);
     glm::ivec2 sizeScreen() const; ///< screen coordinates, those of the pointer
     glm::ivec2 sizePixels() const; ///< of the framebuffer; 0 while the window is minimised
-    float contentScale() const;    ///< how much larger than usual things should be drawn
+    float contentScale() const;    ///< recommended scale of the interface
     bool isMinimised() const;
 
-    bool isButtonHeld() const; ///< of the mouse, as heard last
+    bool isButtonHeld() const; ///< of the mouse, at the latest poll
     /// Moves pending events of the window system into the queue, without waiting.
     void poll();
-    /// The same, after waiting for something to happen, for wake(), or for this long: 0 or more.
+    /// The same, after waiting for an event, for wake(), or for this time, >= 0.
     void wait(double timeoutSeconds);
     /// Ends wait(), from any thread, while a window exists.
     static void wake();
@@ -49,7 +49,7 @@ public:
     const InputQueue& input() const { return input_; }
     /// Files dropped onto the window since the last call.
     std::vector<std::string> takeDrops();
-    /// Whether something happened since the last call that asks for a new frame: input, a new size, damage.
+    /// Whether a new frame is needed since the last call: for input, a new size, or damage.
     bool takeActivity();
     bool hasActivity() const { return activity_; }
     static double nowSeconds();

@@ -17,8 +17,8 @@ namespace {
 
 using std::numbers::pi;
 
-/// Where rays towards the skin start and how steeply they rise, by height on the bust: level through the shoulders and
-/// neck, fanning out around the skull, so that every ray meets the skin once and no quad is stretched under the chin.
+/// Origins and elevations of rays towards the skin, by height on the bust: level through the shoulders and neck,
+/// fanning out around the skull, so that every ray hits the skin once and no quad is stretched under the chin.
 struct RayKnot {
     double up; ///< 0 at the bottom, 1 at the crown
     double originY;
@@ -44,7 +44,7 @@ Ray rayTowardsSkin(double around, double up) {
     const double t = (up - a.up) / (b.up - a.up);
     // More columns in front: the longitude grows slower there. u = 0 and 1 lie at the back.
     const double longitude = 2.0 * pi * (around - 0.5) - 0.55 * std::sin(2.0 * pi * (around - 0.5));
-    // Only the chin calls for falling rays; at the sides they would graze the shoulders.
+    // Rays descend only at the chin; at the sides they would graze the shoulders.
     double elevationDegrees = glm::mix(a.elevationDegrees, b.elevationDegrees, t);
     if (elevationDegrees < 0.0) elevationDegrees *= 0.5 + 0.5 * std::cos(longitude);
     const double elevation = glm::radians(elevationDegrees);
@@ -91,7 +91,7 @@ double skinAlong(const Ray& ray, double guess) {
     return 0.5 * (near + far);
 }
 
-/// Four samples of the field at a tetrahedron's corners.
+/// Gradient from four samples of the field at a tetrahedron's corners.
 glm::dvec3 fieldGradient(const glm::dvec3& p) {
     constexpr double kStep = 0.006; // a little under the finest feature of the field
     static constexpr std::array<glm::dvec3, 4> kCorners = {
@@ -120,7 +120,7 @@ struct Skin {
                 normals[at(i, j)] = glm::normalize(fieldGradient(pointsBU[at(i, j)]));
             }
         });
-        // The last column is the first, to the bit, so that the seam is closed.
+        // The last column equals the first bit for bit, so that the seam is closed.
         for (int j = 0; j <= rows; ++j) {
             pointsBU[at(columns, j)] = pointsBU[at(0, j)];
             normals[at(columns, j)] = normals[at(0, j)];
@@ -141,8 +141,8 @@ struct Skin {
     }
 };
 
-/// In a sharp crease the mean of the faces' normals may point away from a small face: it is turned until it sees them
-/// all.
+/// Turns a normal until it points to the front of all faces: in a sharp crease the mean of the faces' normals may point
+/// away from a small face.
 glm::dvec3 towardsAll(glm::dvec3 normal, const std::vector<glm::dvec3>& faces) {
     constexpr double kLeastCosine = 0.05;
     constexpr int kMostTurns = 32;
@@ -213,7 +213,7 @@ struct SkinMap {
         });
     }
 
-    /// Around the bust columns go on, upwards rows end.
+    /// Columns wrap around the bust; rows end at the top and bottom.
     std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(size) +
                static_cast<std::size_t>((x + size) % size);
@@ -314,8 +314,8 @@ Mesh bustMesh(int columns, int rows, double heightMetres) {
 }
 
 Bust makeBust(int columns, int rows, double heightMetres, int mapTexels, BustPaint paint) {
-    constexpr double kPores = 0.35; // of the stone's grain
-    constexpr int kMapStride = 2;   // the maps see the sculpture twice as finely as the mesh
+    constexpr double kPores = 0.35; // fraction of the stone's grain
+    constexpr int kMapStride = 2;   // the maps sample the sculpture twice as finely as the mesh
     const Skin skin(kMapStride * columns, kMapStride * rows);
     const SkinMap map(skin, mapTexels, paint == BustPaint::Skin ? kPores : 1.0);
     Bust bust;

@@ -20,7 +20,7 @@ inline constexpr glm::dvec3 kPolishedMarble(0.80, 0.785, 0.755);
 /// The bust standing on y = 0, `heightMetres` high, its front towards +Z, with maps of `mapTexels` squared.
 Bust makeBust(int columns, int rows, double heightMetres, int mapTexels, BustPaint paint);
 
-/// The bust without maps, for places where it is small.
+/// The bust without maps, for uses at a small size.
 Mesh bustMesh(int columns, int rows, double heightMetres);
 
 } // namespace tessera::scenes::builtin

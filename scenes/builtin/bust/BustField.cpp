@@ -13,7 +13,7 @@ using glm::dvec3;
 
 /// Distance to an ellipsoid, right to first order near its surface (the value over its gradient's length).
 double ellipsoid(const dvec3& p, const dvec3& center, const dvec3& radii) {
-    const dvec3 perRadius = 1.0 / radii; // known when this is compiled; products are faster than quotients
+    const dvec3 perRadius = 1.0 / radii; // a compile-time constant; products are faster than quotients
     const dvec3 q = (p - center) * perRadius;
     const double k0 = glm::length(q);
     const double k1 = glm::length(q * perRadius);
@@ -118,7 +118,7 @@ double noseAndMouth(const dvec3& p, double d) {
 }
 
 double ears(const dvec3& p, double d) {
-    // In the ear's own frame: turned out from the head and leaning back.
+    // In the ear's local frame: turned out from the head and leaning back.
     const dvec3 q = p - dvec3(0.74, -0.08, -0.2);
     const double c = 0.9;
     const double s = 0.436;
@@ -154,7 +154,7 @@ dvec3 mirrored(const dvec3& p) {
 
 double bustField(const glm::dvec3& pointBU) {
     const dvec3 p = mirrored(pointBU);
-    // Parts are left out where they are farther away than their fillets reach.
+    // Parts beyond the extent of their fillets are skipped.
     if (p.y < -1.6) return neckAndChest(p);
     double d = skull(p);
     if (p.y < 0.0) d = join(d, neckAndChest(p), 0.22);

@@ -8,14 +8,14 @@ namespace tessera::scenes::builtin {
 inline constexpr double kBustBottomY = -3.1;
 inline constexpr double kBustTopY = 1.24;
 
-/// About the distance to the bust's skin, negative inside, without fine relief.
+/// Approximate distance to the bust's skin, negative inside, without fine relief.
 double bustField(const glm::dvec3& pointBU);
 
 /// Fine relief on the skin at a point, along its normal outwards: hair, brows, lips' and skin's texture. In bust units.
 /// `grain` scales the pits and unevenness of the bare surface: 1 is weathered stone.
 double bustRelief(const glm::dvec3& pointBU, double grain);
 
-/// What the skin is made of at a point, each 0..1, for its colour.
+/// Weights of the skin's regions at a point, each 0..1, for its colour.
 struct BustRegions {
     double hair = 0.0;
     double brow = 0.0;

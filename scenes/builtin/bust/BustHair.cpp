@@ -11,17 +11,17 @@ namespace tessera::scenes::builtin {
 namespace {
 
 constexpr std::uint32_t kHairSeed = 29;
-constexpr double kCellBU = 0.27;   // about one curl a cell
+constexpr double kCellBU = 0.27;   // about one curl per cell
 constexpr double kDomeBU = 0.05;   // height of a curl's middle
 constexpr double kPitchBU = 0.055; // from one turn of the spiral to the next
 
-/// Where the point of a cell lies within it.
+/// Position of a cell's point within the cell.
 glm::dvec3 scatterIn(const glm::ivec3& cell) {
     return {hashUnit(cell.x, cell.y, cell.z, kHairSeed), hashUnit(cell.x, cell.y, cell.z, kHairSeed + 1),
             hashUnit(cell.x, cell.y, cell.z, kHairSeed + 2)};
 }
 
-/// The same from a table of the cells that the bust lies in: a bust asks for them a hundred million times.
+/// The same, from a table of the bust's cells: a bust calls it a hundred million times.
 glm::dvec3 knownScatterIn(const glm::ivec3& cell) {
     constexpr int kReach = 10, kSide = 2 * kReach; // cells
     static const std::vector<glm::dvec3> table = [] {
@@ -40,7 +40,7 @@ glm::dvec3 knownScatterIn(const glm::ivec3& cell) {
 } // namespace
 
 BustCurl bustCurl(const glm::dvec3& pointBU) {
-    // Curls are the cells around points scattered one to a cube (Worley 1996, "A cellular texture basis function").
+    // Curls are the cells of points scattered one per cube (Worley 1996, "A cellular texture basis function").
     const glm::dvec3 scaled = pointBU / kCellBU;
     const glm::ivec3 cell(glm::floor(scaled));
     double nearest = 9.0;
@@ -65,7 +65,7 @@ BustCurl bustCurl(const glm::dvec3& pointBU) {
             }
         }
     }
-    // The spiral lies in the plane that touches the skull below the curl.
+    // The spiral lies in the skull's tangent plane below the curl.
     const glm::dvec3 out = glm::normalize(centerBU - glm::dvec3(0.0, 0.1, -0.15));
     const glm::dvec3 right = glm::normalize(glm::cross(glm::dvec3(0.13, 0.98, 0.15), out));
     const glm::dvec3 up = glm::cross(out, right);

@@ -20,7 +20,7 @@ double hairRelief(const glm::dvec3& p) {
     return curl.inside * 0.009 * curl.groove + 0.003 * strand;
 }
 
-/// What the chisel and the years left: pits and a slow unevenness.
+/// Traces of the chisel and of weathering: pits and a low-frequency unevenness.
 double stoneRelief(const glm::dvec3& p) {
     return 0.0011 * gradientNoise(46.0 * p, kReliefSeed + 1) + 0.0025 * fractalNoise(8.0 * p, 2, kReliefSeed + 2);
 }

@@ -17,7 +17,7 @@ void addThing(Scene& scene, const std::string& name, Mesh mesh, const glm::dmat4
     addNode(scene, name, worldFromThing, {{meshIndex, addMaterial(scene, material)}});
 }
 
-/// A wall so thin that it bends no light; its colour is what passes. A rough one would not show other glass behind it.
+/// A thin wall without refraction; its colour tints transmitted light. If rough, it would hide other glass behind it.
 Material sheetGlass(const std::string& name, const glm::vec3& color) {
     Material glass = metallicRoughness(name, color, 0.0f, 0.0f);
     glass.transmission = 1.0f;
@@ -42,7 +42,7 @@ void addBodies(Scene& scene) {
              bodyGlass("amber glass", 0.09f, {0.80f, 0.36f, 0.06f}, 0.07f));
     addThing(scene, "vase", glass::vase(), onTable(0.47, -0.20),
              bodyGlass("frosted glass", 0.03f, {0.70f, 0.85f, 0.90f}, 0.03f, 0.5f));
-    // Its end faces the front camera, so that both slopes are seen and one mirrors a lamp of the studio.
+    // Its end faces the front camera, so that both slopes are visible and one reflects a lamp of the studio.
     addThing(scene, "prism", glass::prism(), onTable(-0.37, -0.08, -1.2),
              bodyGlass("flint glass", 0.06f, {0.95f, 0.97f, 0.98f}, 0.1f));
     scene.materials.back().ior = 1.62f;
@@ -61,7 +61,7 @@ void addSheets(Scene& scene) {
     addTumbler("blue tumbler", {0.45f, 0.66f, 0.95f}, 0.02, 0.19);
     addTumbler("rose tumbler", {0.95f, 0.52f, 0.60f}, 0.17, 0.14);
 
-    // Each takes one primary colour out: two of them leave the third alone.
+    // Each absorbs one primary colour: two of them transmit the third alone.
     const int pane = addMesh(scene, "pane", glass::pane()), holder = addMesh(scene, "holder", glass::paneHolder());
     const int steel = addMaterial(scene, metallicRoughness("steel", {0.62f, 0.63f, 0.65f}, 1.0f, 0.3f));
     const auto addPane = [&](const std::string& name, const glm::vec3& color, double x, double z) {
@@ -107,7 +107,7 @@ Scene makeGlass(const LoadOptions& options, LoadLedger& ledger) {
     addSheets(scene);
     addTableLights(scene);
     keepFirstLights(scene, options);
-    // Bodies show it. It is turned so that its strips stand just outside the picture of the front camera.
+    // The bodies refract the studio. It is rotated so that its strips lie just outside the front camera's view.
     scene.environment = loadEnvironment(std::string(kBuiltinPrefix) + "studio", ledger, scene.warnings);
     scene.environment->rotationDegrees = -58.0f;
     addCamera(scene, "front", {0.02, 0.42, 1.28}, {0.0, 0.11, -0.05}, 31.0);

@@ -1,11 +1,11 @@
 #pragma once
 #include "scenes/Scene.h"
 
-/// What the scene `glass` shows, as meshes in metres that stand on the origin. Where one shows its inside, that comes
-/// first, so that what is nearer is drawn later.
+/// Meshes of the scene `glass`, in metres, standing on the origin. Visible inner surfaces come first, so that nearer
+/// surfaces are drawn later.
 namespace tessera::scenes::builtin::glass {
 
-Mesh tableTop();    ///< its top at y = 0
+Mesh tableTop();    ///< top at y = 0
 Mesh wineBottle();  ///< with its mouth closed, 0.28 m high
 Mesh potBottle();   ///< squat, 0.17 m high
 Mesh vase();        ///< open, 0.18 m high

@@ -62,7 +62,7 @@ void appendLeaves(Mesh& mesh, int count, double phase, double footY, double heig
     for (int leaf = 0; leaf < count; ++leaf) {
         const glm::dmat4 turned =
             glm::rotate(glm::dmat4(1.0), 2.0 * pi * (leaf + phase) / count, glm::dvec3(0.0, 1.0, 0.0));
-        for (const double side : {1.0, -1.0}) { // the roll shows the leaf's back
+        for (const double side : {1.0, -1.0}) { // the rolled tip makes the leaf's back visible
             Mesh part;
             appendPatch(part, 4, 6, [&](double u, double v) {
                 const double s = 2.0 * u - 1.0;

@@ -70,7 +70,7 @@ Mesh endTrim() {
     Mesh mesh;
     appendMesh(mesh, archFrame(kApseRadius, kApseSpringY, 0.5), farEnd());
     appendMesh(mesh, archFrame(kPortalHalf, kPortalSpringY, 0.32), nearEnd());
-    // The apse's own string course, where its dome begins.
+    // The string course of the apse, where its dome begins.
     const int slices = 40;
     const auto ring = [&](double u) {
         const glm::dvec3 out(std::cos(pi * u), 0.0, -std::sin(pi * u));

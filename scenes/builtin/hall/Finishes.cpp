@@ -6,7 +6,7 @@
 namespace tessera::scenes::builtin::hall {
 namespace {
 
-/// Puts a picture that covers `metres` of surface into a slot; texture coordinates are in metres.
+/// Assigns an image that covers `metres` of surface to a slot; texture coordinates are in metres.
 void useEvery(Material& material, TextureSlot slot, int image, float metres) {
     TextureUse& use = material.texture(slot);
     use.image = image;

@@ -14,7 +14,7 @@ constexpr double kCarpetHalf = 1.2;
 } // namespace
 
 Mesh floor() {
-    constexpr double kThreshold = 0.5; // on into the portal; the apse has a floor of its own
+    constexpr double kThreshold = 0.5; // extends into the portal; the apse has its own floor
     Mesh mesh;
     appendFloor(mesh, {0.0, 0.0, 0.5 * kThreshold}, {2.0 * kAisleOuterX, 2.0 * kHalfLength + kThreshold}, {8, 20});
     return mesh;
@@ -25,7 +25,7 @@ Mesh carpet() {
     constexpr double kFromZ = -kHalfLength + 1.0;
     constexpr double kToZ = kHalfLength - 1.5;
     Mesh mesh;
-    // Across the picture once, along it in metres: the border runs along both edges.
+    // u spans the image once and v repeats it every 2 m, so that the border runs along both edges.
     appendPatch(mesh, 2, 36, [&](double u, double v) {
         const double z = glm::mix(kFromZ, kToZ, v);
         return SurfacePoint{{kCarpetHalf * (2.0 * u - 1.0), kThickness, z}, {0.0, 1.0, 0.0}, {u, 0.5 * z}};
@@ -61,7 +61,7 @@ Mesh banner() {
     constexpr double kStep = 1e-4;
     Mesh mesh;
     appendPatch(mesh, 18, 12, [&](double u, double v) {
-        // Sampled inwards at the middle, where the lower edge has its corner.
+        // Central differences average the slopes at the lower edge's corner in the middle.
         const glm::dvec3 across = cloth(u + kStep, v) - cloth(u - kStep, v);
         const glm::dvec3 down = cloth(u, v - kStep) - cloth(u, v + kStep);
         return SurfacePoint{cloth(u, v), glm::cross(across, down), {u, v}};

@@ -23,7 +23,7 @@ glm::dmat4 placed(double x, double y, double z, double turnRadians = 0.0) {
     return glm::rotate(glm::translate(glm::dmat4(1.0), {x, y, z}), turnRadians, glm::dvec3(0.0, 1.0, 0.0));
 }
 
-/// The left side as made, or turned around for the right side.
+/// Placement on a side: as made for the left, rotated by half a turn for the right.
 glm::dmat4 onSide(double side, double z) {
     return placed(0.0, 0.0, z, side < 0.0 ? 0.0 : std::numbers::pi);
 }
@@ -108,7 +108,7 @@ Scene makeHall(const LoadOptions& options, LoadLedger&) {
     const Finishes finishes = addFinishes(scene);
     addArchitecture(scene, finishes);
     addFurnishings(scene, finishes);
-    constexpr int kMostPointLights = kMostLights - 2; // and the sky and the sun
+    constexpr int kMostPointLights = kMostLights - 2; // besides the sky and the sun
     addPointLights(scene, std::min(options.lights.value_or(kDefaultHallLights), kMostPointLights));
     addOutdoorLights(scene);
     addCamera(scene, "nave", {0.9, 1.75, 17.6}, {-0.25, 4.35, 0.0}, 62.0);

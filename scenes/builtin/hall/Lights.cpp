@@ -72,7 +72,7 @@ void addApse(std::vector<Light>& places) {
         const glm::dvec3 positionWS(radius * std::cos(angle), y, -kHalfLength - radius * std::sin(angle));
         addPlace(places, "apse", positionWS, i % 2 == 0 ? kAmber : kRose, 1.6f, 3.4f);
     }
-    for (const double side : {-1.0, 1.0}) { // from below on the colossus
+    for (const double side : {-1.0, 1.0}) { // illuminate the colossus from below
         addPlace(places, "dais", {side * 1.3, 1.1, -kHalfLength + 0.9}, kAmber, 5.0f, 4.5f);
     }
 }
@@ -86,7 +86,7 @@ void addPortal(std::vector<Light>& places) {
     }
 }
 
-/// Wisps that drift in two helices along the nave, their hue turning with the way.
+/// Wisps that drift in two helices along the nave; their hue changes along the way.
 void addWisps(std::vector<Light>& places) {
     const int count = kPlaces - static_cast<int>(places.size());
     assert(count > 0);

@@ -21,7 +21,7 @@ inline constexpr double kWindowSpringY = 9.75;
 inline constexpr double kWindowHalf = 0.68;
 inline constexpr double kVaultSpringY = 10.6;
 inline constexpr double kVaultRadius = kNaveHalf;
-inline constexpr double kAisleVaultSpringY = 7.65; ///< above the arches, whose heads look into the vault
+inline constexpr double kAisleVaultSpringY = 7.65; ///< above the arches, whose tops open into the vault
 
 inline constexpr double kNicheSillY = 0.9;
 inline constexpr double kNicheSpringY = 2.7;

@@ -16,7 +16,7 @@ glm::dvec2 texelCenter(int x, int y, int width, int height) {
     return {(x + 0.5) / width, (y + 0.5) / height};
 }
 
-/// Noise that tiles over the picture, `frequency` cells across.
+/// Noise that tiles over the image, `frequency` cells across.
 double tiling(const glm::dvec2& p, int frequency, int octaves, std::uint32_t seed) {
     return fractalNoise({frequency * p.x, frequency * p.y, 0.0}, octaves, seed, glm::ivec2(frequency));
 }
@@ -28,7 +28,7 @@ double vein(const glm::dvec2& p, int frequency, double width, std::uint32_t seed
     return std::exp(-(n * n) / (width * width));
 }
 
-/// Distance to the edge of the nearest of `count` slabs a side, in texture space.
+/// Distance to the edge of the nearest of `count` slabs per side, in texture space.
 double toSlabEdge(const glm::dvec2& p, int count) {
     const glm::dvec2 inside = glm::fract(p * static_cast<double>(count));
     const glm::dvec2 edge = glm::min(inside, 1.0 - inside) / static_cast<double>(count);
@@ -56,7 +56,7 @@ double toJoint(const glm::dvec2& p) {
 
 struct Block {
     double toEdge; ///< in texture space
-    double shade;  ///< 0..1, its own
+    double shade;  ///< 0..1, random per block
     double lean;   ///< -1..1
 };
 
@@ -167,7 +167,7 @@ Image carpetColors() {
     return drawColors("carpet", kWidth, kHeight, [&](int x, int y) {
         const glm::dvec2 p = texelCenter(x, y, kWidth, kHeight);
         const double edge = std::min(p.x, 1.0 - p.x);
-        const glm::dvec2 q(4.0 * (p.x - 0.5), 2.0 * glm::fract(2.0 * p.y) - 1.0); // one medallion each half of v
+        const glm::dvec2 q(4.0 * (p.x - 0.5), 2.0 * glm::fract(2.0 * p.y) - 1.0); // one medallion per half of v
         const double medallion = std::abs(q.x) + std::abs(q.y);
         glm::dvec3 color = medallion < 0.8 ? kDeep : kRed;
         if (std::abs(medallion - 0.8) < 0.04 || medallion < 0.16) color = kGold;

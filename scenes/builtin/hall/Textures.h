@@ -3,7 +3,7 @@
 
 #include "scenes/Scene.h"
 
-/// The hall's pictures. Those that tile repeat seamlessly and cover the metres named; v points down.
+/// Textures of the hall. Tiling ones repeat seamlessly and cover the metres named; v points down.
 namespace tessera::scenes::builtin::hall {
 
 inline constexpr float kFloorTextureMetres = 2.0f;

@@ -14,7 +14,7 @@ using std::numbers::pi;
 constexpr int kAround = 10; // coffers from springing to springing
 constexpr int kAlong = 4;   // coffers in a bay
 
-/// A point of the vault by its shares of the half circle and of the bay, `depth` behind the vault's face.
+/// A point of the vault by fractions of the half circle and of the bay, `depth` behind the vault's face.
 glm::dvec3 vaultPoint(double around, double along, double depth) {
     const double r = kVaultRadius + depth;
     return {r * std::cos(pi * around), kVaultSpringY + r * std::sin(pi * around), (along - 0.5) * kBayLength};
@@ -40,7 +40,7 @@ Coffer cofferAt(int i, int j) {
             static_cast<double>(j + 1) / kAlong};
 }
 
-/// The ring between two outlines, seen from inside the hall.
+/// The ring between two outlines, facing the inside of the hall.
 void appendRing(Mesh& mesh, const Coffer& outer, double outerDepth, const Coffer& inner, double innerDepth) {
     for (int i = 0; i < 4; ++i) {
         const int k = (i + 1) % 4;
@@ -78,7 +78,7 @@ Mesh vaultFrames() {
         appendRing(mesh, firstBottom, kStepMetres, second, kStepMetres);
         appendRing(mesh, second, kStepMetres, ground(coffer), kDepth);
     });
-    // A rib under every second column's line keeps the bays apart.
+    // A rib at each line of columns separates the bays.
     appendArch(mesh,
                Profile({kVaultRadius, 0.3})
                    .lineTo({kVaultRadius - 0.1, 0.3})

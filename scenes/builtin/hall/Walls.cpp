@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Puts what was made facing +Z around the origin into the plane x, facing +X.
+/// Moves a part made around the origin, facing +Z, into the plane x, facing +X.
 glm::dmat4 facingRight(double x) {
     return {{0.0, 0.0, -1.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}, {x, 0.0, 0.0, 1.0}};
 }
@@ -112,7 +112,7 @@ Mesh bayWalls() {
     appendAlcove(part, kNicheRadius, kNicheSillY, kNicheSpringY, 20);
     appendMesh(mesh, part, facingRight(-kAisleOuterX));
 
-    // Barrel vault of the aisle, seen from below.
+    // Barrel vault of the aisle, facing down.
     const double innerX = -kColumnX - kWallHalf;
     const double radius = 0.5 * (kAisleOuterX + innerX);
     const double centerX = 0.5 * (innerX - kAisleOuterX);

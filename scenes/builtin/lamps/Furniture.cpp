@@ -11,15 +11,15 @@
 namespace tessera::scenes::builtin::lamps {
 namespace {
 
-/// A board to stand books on: a point of its back edge, the way it runs, and the way that spines face.
+/// A shelf for books: a point of its back edge, its direction, and the direction that spines face.
 struct Shelf {
     glm::dvec3 backOS;
     glm::dvec3 along;
     glm::dvec3 out;
 };
 
-/// A row of books between two places along the shelf. The picture of spines begins at `pictureFrom` and runs on over
-/// the tops and ends.
+/// A row of books between two positions along the shelf. The texture of spines begins at `pictureFrom` and continues
+/// over the tops and ends.
 void appendRow(Mesh& mesh, const Shelf& shelf, double from, double to, double height, double depth,
                double pictureFrom) {
     constexpr glm::dvec3 kUp(0.0, 1.0, 0.0);
@@ -43,7 +43,7 @@ void appendRow(Mesh& mesh, const Shelf& shelf, double from, double to, double he
         });
 }
 
-/// Rows of unlike height and depth from one upright to the next, with a gap here and there.
+/// Rows of varying height and depth from one upright to the next, with some gaps.
 void appendRows(Mesh& mesh, Random& random, const Shelf& shelf, double from, double to, double deepest) {
     constexpr double kLeastMetres = 0.25;
     double start = from + random.between(0.0, 0.08);
@@ -57,9 +57,9 @@ void appendRows(Mesh& mesh, Random& random, const Shelf& shelf, double from, dou
     }
 }
 
-constexpr double kBackHalf = 0.01;  ///< of the board that a case's two faces share
+constexpr double kBackHalf = 0.01;  ///< half thickness of the board between a case's two faces
 constexpr double kUpright = 0.04;   ///< thickness of ends
-constexpr double kBookDepth = 0.19; ///< well behind the strips, which then light the spines and not their edges alone
+constexpr double kBookDepth = 0.19; ///< well behind the strips, which thus light whole spines, not only their edges
 constexpr glm::dvec3 kForward(0.0, 0.0, 1.0);
 constexpr glm::dvec3 kRight(1.0, 0.0, 0.0);
 

@@ -88,7 +88,7 @@ void addGlow(Scene& scene, const std::vector<LampPlace>& places) {
         const std::string name = "shining " + std::string(kind.name);
         Material glow = metallicRoughness(name, glm::vec3(0.0f), 0.0f, 1.0f);
         glow.emissive = kind.radiance * kind.color;
-        glow.castsShadow = false; // some lie before their light
+        glow.castsShadow = false; // some lie in front of their light
         glowing.push_back(
             {addMesh(scene, name, glowingSurfaces(places, kind.lamp)), addMaterial(scene, std::move(glow))});
     }

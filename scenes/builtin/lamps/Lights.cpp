@@ -19,8 +19,8 @@ const std::array<LampKind, static_cast<std::size_t>(Lamp::Count)> kLampKinds{{
 
 namespace {
 
-/// From a light to the surface that is seen to shine: behind it, so that it does not shine on it, or before each of its
-/// two sides.
+/// Distance from a light to its visible glowing surface: behind the light, which thus does not illuminate it, or in
+/// front of both sides of a two-sided one.
 constexpr double kGlowMetres = 0.005;
 
 void addLampPlace(std::vector<LampPlace>& places, Lamp lamp, const glm::dvec3& surfaceWS, const glm::dvec3& directionWS,

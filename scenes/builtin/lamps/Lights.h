@@ -6,7 +6,7 @@
 
 namespace tessera::scenes::builtin::lamps {
 
-/// What shines in the reading hall.
+/// Kinds of lamps in the reading hall.
 enum class Lamp {
     Shelf,     ///< strips under the boards of the bookcases, down and towards the books
     CaseEnd,   ///< upright strips on the cases, towards the nave
@@ -30,7 +30,7 @@ struct LampKind {
 };
 extern const std::array<LampKind, static_cast<std::size_t>(Lamp::Count)> kLampKinds;
 
-/// Where the lamps are and how they shine, in all 1000.
+/// Kinds, positions and properties of all 1000 lamps.
 inline constexpr int kLampPlaces = 1000;
 struct LampPlace {
     Lamp lamp;
@@ -38,10 +38,10 @@ struct LampPlace {
 };
 std::vector<LampPlace> lampPlaces();
 
-/// The surfaces that are seen to shine: those of a kind, where their own light does not fall on them, in world space.
+/// The visible glowing surfaces of a kind, in world space, placed where their own light does not illuminate them.
 Mesh glowingSurfaces(const std::vector<LampPlace>& places, Lamp lamp);
 
-/// Adds `count` of the lights, or more that crowd around their places.
+/// Adds `count` of the lights; if there are more than places, further ones are scattered around these.
 void addLamps(Scene& scene, const std::vector<LampPlace>& places, int count);
 
 } // namespace tessera::scenes::builtin::lamps

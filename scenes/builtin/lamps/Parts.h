@@ -1,13 +1,13 @@
 #pragma once
 #include "scenes/Scene.h"
 
-/// The reading hall's parts as meshes, each of one finish, metres. Parts of a side are made for the right side (x > 0);
-/// turned by half a turn about Y they serve the left side. Texture coordinates are metres, but of books (Textures.h).
+/// Meshes of the reading hall, each of one finish, metres. Parts of a side are made for the right side (x > 0); turned
+/// by half a turn about Y they serve the left side. Texture coordinates are metres, except for books (Textures.h).
 namespace tessera::scenes::builtin::lamps {
 
 // ---- Building.cpp ----
 
-Mesh walls(); ///< and what frames the window
+Mesh walls(); ///< including the window's reveal
 Mesh ceiling();
 Mesh beams();
 Mesh floorBoards();
@@ -19,16 +19,16 @@ Mesh pillar();  ///< on the origin, up to the gallery
 
 // ---- Furniture.cpp ----
 
-Mesh caseBoards();                  ///< of the case whose middle is z = 0
-Mesh caseBooks(std::uint32_t seed); ///< in it
+Mesh caseBoards();                  ///< boards of the case whose middle is z = 0
+Mesh caseBooks(std::uint32_t seed); ///< books of that case
 Mesh upperBoards();                 ///< of a side: shelves along the outer wall
-Mesh upperBooks();                  ///< on them
+Mesh upperBooks();                  ///< of a side: books on these shelves
 Mesh desk();                        ///< on the origin, 2.6 m along Z
-Mesh benches();                     ///< beside it
+Mesh benches();                     ///< beside the desk
 Mesh deskLampStands();              ///< of all lamps of a desk
-Mesh deskLampShades();              ///< the same
-Mesh papers();                      ///< on it
+Mesh deskLampShades();              ///< of all lamps of a desk
+Mesh papers();                      ///< on the desk
 Mesh luminaires();                  ///< frames and rods over both sides
-Mesh fixtures();                    ///< of a side: what holds the strips over the gallery
+Mesh fixtures();                    ///< of a side: mounts of the strips over the gallery
 
 } // namespace tessera::scenes::builtin::lamps

@@ -12,7 +12,7 @@ namespace tessera::scenes::builtin::lamps {
 namespace {
 
 struct Book {
-    double end; ///< 0..1 of the picture
+    double end; ///< right edge, 0..1 of the image
     double width;
     glm::dvec3 cover;
     double bandsAt; ///< v of its label
@@ -73,7 +73,7 @@ Image boardColors() {
         const double u = (x + 0.5) / kSize, v = (y + 0.5) / kSize;
         const int board = static_cast<int>(u * kBoards);
         const double inside = u * kBoards - board;
-        // Boards end at unlike places, one each in the picture.
+        // Each board ends once in the image, at its own position.
         const double along = v + hashUnit(board, 0, 0, 3);
         const double toEnd = std::min(along - std::floor(along), std::ceil(along) - along);
         const double tone = 0.75 + 0.5 * hashUnit(board, 1, 0, 3);

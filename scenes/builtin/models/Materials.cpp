@@ -13,7 +13,7 @@ TextureUse repeated(int image, const glm::vec2& times) {
     return use;
 }
 
-/// Pictures go around a sphere twice as often as from pole to pole, so that they are square at its equator.
+/// Textures repeat around a sphere twice as often as from pole to pole, so that they are square at its equator.
 TextureUse around(int image, float times) {
     return repeated(image, {2.0f * times, times});
 }

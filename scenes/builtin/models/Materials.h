@@ -3,13 +3,13 @@
 
 namespace tessera::scenes::builtin::models {
 
-/// The materials on show, from left to right: the teaching models; gloss that has a direction; layers.
+/// The exhibited materials, from left to right: the teaching models; anisotropic gloss; layers.
 struct Exhibits {
     std::vector<int> teaching;
     std::vector<int> directional;
     std::vector<int> layered;
 };
-/// Adds them, and their pictures, to the scene.
+/// Adds the materials and their textures to the scene.
 Exhibits addExhibits(Scene& scene);
 
 } // namespace tessera::scenes::builtin::models

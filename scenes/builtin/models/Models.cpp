@@ -15,7 +15,7 @@ constexpr double kPieceRadiusMetres = 0.5;
 constexpr double kPieceSpacingMetres = 1.3;
 constexpr double kStepMetres = 0.55; ///< height of a step
 constexpr double kDepthMetres = 1.35;
-constexpr int kPieces = 5; ///< a row
+constexpr int kPieces = 5; ///< per row
 constexpr int kRows = 3;
 
 /// A low foot that the spheres rest on.
@@ -27,7 +27,7 @@ Mesh footMesh() {
     return mesh;
 }
 
-/// A disc of metal as it comes from a lathe: its texture runs around the centre, and so does the tangent.
+/// A disc of lathed metal: texture and tangent run around the centre.
 Mesh discMesh() {
     Mesh mesh;
     appendPatch(mesh, 64, 12, [](double u, double v) {
@@ -39,7 +39,7 @@ Mesh discMesh() {
 }
 
 /// The cap of a sphere, facing +z, all of which is visible from in front. It is for the material whose
-/// masking-shadowing is divided by n.v: at a sphere's silhouette single precision does not know that.
+/// masking-shadowing is divided by n.v, for which fp32 is too coarse at a sphere's silhouette.
 Mesh capMesh() {
     constexpr double kHalfAngleRadians = 0.75;
     const double sphereRadiusMetres = kPieceRadiusMetres / std::sin(kHalfAngleRadians);
@@ -122,7 +122,7 @@ void addSpot(Scene& scene, const std::string& name, const glm::dvec3& positionWS
 void addSpotsAndLamps(Scene& scene) {
     addSpot(scene, "key", {-5.0, 6.0, 5.5}, {-0.3, 0.6, -1.2}, {1.0f, 0.93f, 0.82f}, 120.0f);
     addSpot(scene, "fill", {6.0, 4.0, 5.0}, {0.4, 0.6, -1.2}, {0.62f, 0.78f, 1.0f}, 55.0f);
-    // Two rows of lamps stand for long windows: polished things show what surrounds them.
+    // Two rows of lamps imitate long windows, which polished surfaces reflect.
     for (int i = 0; i < 4; ++i) {
         const double x = 2.4 * (i - 1.5);
         addPointLight(scene, "lamp above " + std::to_string(i), {x, 5.2, 0.4}, {1.0f, 0.97f, 0.92f}, 5.0f);

@@ -25,7 +25,7 @@ double tiling(const glm::dvec2& p, int frequency, int octaves, std::uint32_t see
 struct Nearest {
     glm::ivec2 cell{0};
     double distance = 2.0; ///< in cells
-    double second = 2.0;   ///< to the next one
+    double second = 2.0;   ///< distance to the second nearest
 };
 
 Nearest nearestPoint(const glm::dvec2& p, int cells, std::uint32_t seed) {
@@ -68,7 +68,7 @@ Thread twill(const glm::dvec2& p, int threads) {
 constexpr int kFibres = 32;
 constexpr int kClothThreads = 64;
 
-/// A direction in tangent space, v up, and a strength, as texels keep them.
+/// encoded as a texel
 glm::dvec3 storedDirection(double angleRadians, double strength) {
     return {0.5 + 0.5 * std::cos(angleRadians), 0.5 + 0.5 * std::sin(angleRadians), strength};
 }
@@ -110,11 +110,11 @@ Image glazeColors() {
 
 Image swirlDirections() {
     return drawValues("swirls", kSize, kSize, [](int x, int y) {
-        constexpr int kCells = 2; // swirls a side
+        constexpr int kCells = 2; // swirls per side
         const glm::dvec2 at = texelCenter(x, y) * static_cast<double>(kCells);
         const glm::dvec2 fromCentre = glm::fract(at) - 0.5;
         const double strength = std::clamp(12.0 * glm::length(fromCentre), 0.0, 1.0);
-        // Along the circle about the centre; v points down in the picture and up in tangent space.
+        // Along the circle about the centre; v points down in the image and up in tangent space.
         return storedDirection(std::atan2(fromCentre.x, fromCentre.y), strength);
     });
 }
@@ -142,7 +142,7 @@ Image flakeNormals() {
 }
 
 Image peelNormals() {
-    constexpr double kMetres = 0.25; // that the picture covers
+    constexpr double kMetres = 0.25; // size that the texture covers
     return normalsFromHeights("lacquer", kSize, kMetres / kSize,
                               [](int x, int y) { return 0.0005 * tiling(texelCenter(x, y), 12, 2, 23); });
 }
@@ -159,7 +159,7 @@ Image clothColors() {
 }
 
 Image clothNormals() {
-    constexpr double kMetres = 0.5; // that the picture covers
+    constexpr double kMetres = 0.5; // size that the texture covers
     return normalsFromHeights("cloth relief", kSize, kMetres / kSize, [](int x, int y) {
         const Thread thread = twill(texelCenter(x, y), kClothThreads);
         return 0.0012 * std::sqrt(1.0 - 0.9 * thread.across * thread.across);

@@ -78,7 +78,7 @@ void addProductLights(Scene& scene) {
         addAreaLight(scene, "fill", LightType::Disk, {2.9, 1.8, 2.8}, kProductsWS, {0.88f, 0.94f, 1.0f}, 0.8f);
     fill.radiusMetres = 1.1f;
 
-    // Broad and dim: polished things show what surrounds them.
+    // Broad and dim, for polished surfaces to reflect.
     Light& overhead = addAreaLight(scene, "overhead", LightType::Rectangle, {0.0, 3.4, -0.3}, {0.0, 0.0, -0.3},
                                    glm::vec3(1.0f), 0.7f);
     overhead.widthMetres = 3.2f;

@@ -12,8 +12,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// A surface (u, v) -> place whose normals follow from its own slopes. `insideOS` is a point that they face away
-/// from.
+/// Adds a surface (u, v) -> position with normals from finite differences. The normals face away from `insideOS`.
 void appendSmooth(Mesh& mesh, int stepsU, int stepsV, const glm::dvec3& insideOS,
                   const std::function<glm::dvec3(double, double)>& placeOS) {
     constexpr double kStep = 1e-4;
@@ -27,7 +26,7 @@ void appendSmooth(Mesh& mesh, int stepsU, int stepsV, const glm::dvec3& insideOS
     });
 }
 
-/// From 0 at `low` to 1 at `high`.
+/// Rises smoothly from 0 at `low` to 1 at `high`.
 double rampBetween(double low, double high, double x) {
     const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);

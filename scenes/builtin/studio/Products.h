@@ -1,7 +1,7 @@
 #pragma once
 #include "scenes/Scene.h"
 
-/// What the scene `studio` shows, as meshes in metres: each stands on the origin unless it says otherwise.
+/// Meshes of the scene `studio`, in metres, standing on the origin unless stated otherwise.
 namespace tessera::scenes::builtin::studio {
 
 Mesh paperSweep();              ///< a floor that bends up into a wall behind, in world space

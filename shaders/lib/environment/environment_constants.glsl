@@ -1,4 +1,4 @@
-// How a view's environment lies and shines.
+// Orientation and intensity of a view's environment.
 #pragma once
 #include "shared/slots.h"
 #include "shared/environment.h"
@@ -14,7 +14,7 @@ float environmentIntensity() // multiplies the map's radiance
     return environment.light.x;
 }
 
-int filteredHalvings() // of ENVIRONMENT_MOST_SIDE, as the levels of the filtered map have it
+int filteredHalvings() // number of halvings of ENVIRONMENT_MOST_SIDE, for the levels of the filtered map
 {
     return int(environment.light.y);
 }
@@ -31,7 +31,7 @@ vec3 fromMapDirection(vec3 direction)
     return directionLS;
 }
 
-// The share of the light that arrives at a surface, by its occlusion texture.
+// Fraction of the environment's light that reaches a surface, from its occlusion texture.
 float openShare(Surface surface)
 {
 #if HAS_OCCLUSION_TEXTURE

@@ -1,6 +1,6 @@
-// The light of the environment on a surface from maps that were filtered beforehand, by the split sum: the light that a
-// lobe sees on average, times what the lobe reflects of even light. Source: Karis 2013, "Real Shading in Unreal
-// Engine 4". Exact for light that is the same everywhere; elsewhere its error is stated in docs/environment.md.
+// Environment lighting from prefiltered maps by the split sum: mean radiance incident on a lobe, times the lobe's
+// reflectance under uniform illumination. Source: Karis 2013, "Real Shading in Unreal Engine 4". Exact for uniform
+// illumination; docs/environment.md states the error elsewhere.
 #pragma once
 #if HAS_MIRRORS
 #include "lib/environment/environment_map.glsl"
@@ -15,8 +15,8 @@ vec3 irradianceOn(vec3 normalLS)
     return filteredTexel(encodeOctahedral(mapDirection(normalLS)), ENVIRONMENT_IRRADIANCE_SIDE, ENVIRONMENT_LEVELS);
 }
 
-// What a lobe sees: around its axis, by the two levels whose alphas lie around its own; below the first of them the
-// sharper the more of the map itself, in the direction that mirrors the viewer.
+// Mean radiance incident on a lobe around its axis, interpolated between the two levels whose alphas enclose its alpha.
+// Below the first level's alpha, blends towards the unfiltered map in the direction that mirrors the viewer.
 vec3 filteredLight(vec3 axisLS, vec3 mirroredLS, float alpha)
 {
     float level = filteredPlace(alpha);
@@ -36,7 +36,7 @@ vec3 filteredLight(vec3 axisLS, vec3 mirroredLS, float alpha)
     return light;
 }
 
-// Where most of a lobe's light comes from: the rougher, the nearer to the normal. Source: Lagarde and de Rousiers 2014,
+// Dominant direction of a lobe's light: the rougher, the nearer to the normal. Source: Lagarde and de Rousiers 2014,
 // "Moving Frostbite to Physically Based Rendering", section 4.9.3.
 vec3 lobeAxis(vec3 normal, vec3 mirrored, float alpha)
 {
@@ -49,9 +49,9 @@ vec3 lobeAxis(vec3 normal, vec3 mirrored, float alpha)
 #if HAS_TANGENT_FRAME
 const int kStretchedTaps = 16;
 
-// Of a lobe with two alphas: taps along its longer axis at even shares of the facets' slopes, each as wide as the
-// shorter one, or as the gap to the next where that is wider: no lamp shows as a row of dots. A direction, and its
-// weight.
+// A tap of an anisotropic lobe: xyz direction, w weight. Taps lie along the wider axis at equal fractions of the slope
+// distribution of the microfacets, each as wide as the narrower alpha, or as the gap to the next tap if that is wider,
+// so that a lamp does not show as a row of dots.
 vec4 stretchedTap(SeenSurface seen, int tap, out float alpha)
 {
     Surface surface = seen.surface;
@@ -63,19 +63,19 @@ vec4 stretchedTap(SeenSurface seen, int tap, out float alpha)
     precise vec3 leaning = surface.normalLS + slope * axis;
     vec3 mirrored = mirrorDirection(safeNormalize(leaning, surface.normalLS), seen.toViewer);
     precise float weight = max(dot(mirrored, surface.normalLS), 0.0);
-    // D falls to a half at a slope of 0.64 alpha.
+    // D falls to half of its peak at a slope of 0.64 alpha.
     precise float gap = wide * (2.0 / float(kStretchedTaps)) / ((1.0 - share * share) * sqrt(1.0 - share * share));
     alpha = min(max(narrow, gap / 1.28), 1.0);
     return vec4(mirrored, weight);
 }
 #endif
 
-// What the surface's lobe and its coat's see on average; black where there is none.
+// Mean radiance incident on the base lobe and on the coat's; black without such a lobe.
 struct LobeLight {
     vec3 base, coat;
 };
 
-// One loop over all look-ups, so that a program holds their code once.
+// A single loop over all look-ups, so that a program contains their code once.
 LobeLight lightOfLobes(SeenSurface seen)
 {
     int baseTaps = hasLobe(seen) ? 1 : 0, coatTaps = 0;
@@ -121,7 +121,7 @@ LobeLight lightOfLobes(SeenSurface seen)
     return LobeLight(base, coat);
 }
 
-// What enters a surface: irradiance, and around the horizon what wraps, as of light that is even front and back.
+// Irradiance that enters a surface, including wrapped light, as if both hemispheres had the mean of their irradiances.
 vec3 enteringIrradiance(SeenSurface seen, vec3 irradiance)
 {
     precise vec3 entering = irradiance;
@@ -134,7 +134,7 @@ vec3 enteringIrradiance(SeenSurface seen, vec3 irradiance)
     return entering;
 }
 
-// Radiance towards the viewer of the environment's light.
+// Radiance towards the viewer from the environment.
 vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
 {
     LobeLight lobes = lightOfLobes(seen);

@@ -1,12 +1,12 @@
-// A map of all directions around the scene (scenes/Environment.h), interpolated in full precision.
+// Environment map in latitude and longitude (scenes/Environment.h), interpolated in full precision.
 #pragma once
 #include "lib/environment/environment_constants.glsl"
 #include "lib/maths/math.glsl"
 
-// RGB radiance; A, where samples are taken, their density in 1/sr.
+// rgb radiance; a, if samples are taken, their density in 1/sr.
 layout(binding = TEXTURE_UNIT_ENVIRONMENT) uniform sampler2D environmentMap;
 
-// Texels from the left and from the top of where a direction of the map lies.
+// Position of a map direction, in texels from the left and from the top.
 vec2 mapPlace(vec3 direction, ivec2 size)
 {
     precise float level = sqrt(dot(direction.xz, direction.xz));
@@ -16,7 +16,7 @@ vec2 mapPlace(vec3 direction, ivec2 size)
     return place;
 }
 
-// rgb radiance of a direction of the map; a density of the texel that it lies in.
+// rgb radiance in a direction of the map; a sample density of the texel that contains it.
 vec4 mapRadiance(vec3 direction)
 {
     ivec2 size = textureSize(environmentMap, 0);

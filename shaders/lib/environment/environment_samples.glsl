@@ -1,7 +1,7 @@
-// The light of the environment on a surface by samples of each pixel: of the map where it is bright, of the cosine, of
-// the lobe and of the coat. Each counts by how densely all of them sample its direction (multiple importance sampling),
-// so that none is needed for the others to converge to the truth. Source: Veach and Guibas 1995, "Optimally Combining
-// Sampling Techniques for Monte Carlo Rendering", the balance heuristic.
+// Environment lighting by Monte Carlo sampling per pixel: of the map's radiance, the cosine, the lobe and the coat.
+// Each sample is weighted by the densities of all of them in its direction (multiple importance sampling), so that none
+// is needed for the others to converge. Source: Veach and Guibas 1995, "Optimally Combining Sampling Techniques for
+// Monte Carlo Rendering", the balance heuristic.
 #pragma once
 #include "lib/environment/environment_map.glsl"
 #if ENVIRONMENT_COMPENSATION
@@ -13,14 +13,14 @@
 
 layout(binding = TEXTURE_UNIT_ENVIRONMENT_SAMPLES) uniform samplerBuffer environmentSamples;
 
-// Point k of a sequence that fills the unit square evenly from anywhere. Source: Roberts 2018, "The Unreasonable
+// Point k of a low-discrepancy sequence in the unit square, from any start. Source: Roberts 2018, "The Unreasonable
 // Effectiveness of Quasirandom Sequences": fractions of the plastic number.
 vec2 evenPoint(uvec2 start, int k)
 {
     return unitOf(start + uint(k) * uvec2(3242174889u, 2447445414u));
 }
 
-// What layers above leave of lostToBounces(), a BRDF.
+// lostToBounces() as a BRDF, attenuated by the layers above.
 vec3 bouncesBelowLayers(SeenSurface seen)
 {
 #if ENVIRONMENT_COMPENSATION && HAS_GGX_MODELS
@@ -37,7 +37,7 @@ vec3 bouncesBelowLayers(SeenSurface seen)
 #endif
 }
 
-// What a sample of a direction is worth, to be divided by the number of samples of each kind.
+// Contribution of a sample in a direction; callers divide by the number of samples of each kind.
 vec3 sampledLight(SeenSurface seen, vec3 bounces, vec3 toLight, vec3 radiance, float mapDensity)
 {
     precise vec3 brdfCosine = layeredBrdfCosine(seen, toLight);
@@ -58,8 +58,8 @@ vec3 sampledDirection(SeenSurface seen, vec3 bounces, vec3 toLight)
 }
 
 #if HAS_MIRRORS
-// Radiance towards the viewer of lobes that are mirrors, before the map's intensity. No sample would find their direction,
-// so they are taken from what is sampled.
+// Radiance towards the viewer from mirror lobes, without the map's intensity. No sample would hit their direction, so
+// this removes them from the lobes to be sampled.
 vec3 takeMirrors(inout SeenSurface seen)
 {
     precise vec3 light = vec3(0.0);
@@ -73,21 +73,21 @@ vec3 takeMirrors(inout SeenSurface seen)
         reflected *= 1.0 - seen.coatWeight;
 #endif
         light = reflected * mapRadiance(mapDirection(mirrorDirection(seen.surface.normalLS, seen.toViewer))).rgb;
-        seen.scale = 0.0; // of the distribution of normals
-        if (IS_MICROFACET(seen.surface.model)) seen.surface.model = MODEL_LAMBERT; // as they are below their lobe
+        seen.scale = 0.0; // factor of the distribution of normals
+        if (IS_MICROFACET(seen.surface.model)) seen.surface.model = MODEL_LAMBERT; // their diffuse part
     }
 #endif
 #if HAS_CLEARCOAT && !SPECULAR_OFF
     if (seen.surface.coatFactor > 0.0 && seen.coatNv > 0.0 && seen.surface.coatAlpha <= ALPHA_MIN) {
         light += seen.coatWeight * mapRadiance(mapDirection(mirrorDirection(seen.coatNormalLS, seen.toViewer))).rgb;
-        seen.coatNv = 0.0; // seen edge-on it has no lobe
+        seen.coatNv = 0.0; // no coat lobe, as if seen edge-on
     }
 #endif
     return light;
 }
 #endif
 
-// Radiance towards the viewer of the map's light, before its intensity.
+// Radiance towards the viewer from the environment.
 vec3 environmentOnSurface(SeenSurface seen, vec2 pixel)
 {
     bool samplesLobe = hasLobe(seen);

@@ -1,19 +1,18 @@
-// The map as it was filtered beforehand: all its levels in one picture, each an octahedron with its faces divided into
-// triangles, unfolded into a square. A texel is a corner of triangles, and between corners light is linear: the edges of
-// the octahedron run along edges of triangles, where a bilinear sampler would interpolate across them and show them as
-// lines.
+// Prefiltered environment map: all levels in one image, each an octahedral map whose faces are divided into triangles.
+// Texels are corners of triangles, and light is linear within a triangle. Edges of the octahedron coincide with edges
+// of triangles, whereas a bilinear sampler would interpolate across them and make them visible as lines.
 #pragma once
 #include "lib/environment/environment_constants.glsl"
 #include "lib/maths/octahedral.glsl"
 
 layout(binding = TEXTURE_UNIT_ENVIRONMENT_FILTERED) uniform sampler2D filteredEnvironment;
 
-// `side` counts the cells along the square, which two triangles each fill.
+// `side`: cells along the side of the square, of two triangles each.
 vec3 filteredTexel(vec2 code, int side, int level)
 {
     int halfSide = side / 2;
     ivec2 middle = ivec2(halfSide, halfSide + filteredTop(filteredHalvings(), level));
-    // From the square's middle outwards all quarters are alike: a cell is halved by the edge that faces the middle.
+    // The quadrants around the square's centre are symmetric: a cell is halved by the diagonal that faces the centre.
     ivec2 outward = ivec2(signNotZero(code.x), signNotZero(code.y));
     precise vec2 place = abs(code) * float(halfSide);
     ivec2 cell = min(ivec2(place), ivec2(halfSide - 1));

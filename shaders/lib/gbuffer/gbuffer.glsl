@@ -1,14 +1,13 @@
-// The G-buffer: how a surface is stored in its channels and read back.
-// Which channels exist, where and in which encoding comes from the table channelTable() (renderer/frame/GBufferLayout.h) as
-// defines; lib/gbuffer/gbuffer_channels.glsl defines their contents. A channel in fp32 has the attachment GBUFFER_<NAME>, one
-// of GBUFFER_EXACT_CHANNELS. The fields of the others lie end to end in GBUFFER_WORDS words, from the bit
-// GBUFFER_<NAME> on, GBUFFER_<NAME>_WIDTHS bits wide; the words are in attachments from GBUFFER_WORD_TEXTURE on, four,
-// then two, then one of them in each. GBUFFER_SPARE_COMPONENTS: metallic and alpha are the fourth components of albedo
-// and normal. GBUFFER_MATERIAL_NUMBER: the fields of the normal are its code and the number of the material, whose values
-// are read from the table of all materials. GBUFFER_MARKS is the attachment of a word or two with the marks of
-// lib/gbuffer/gbuffer_marks.glsl. GBUFFER_FACETS_IN_SPECULAR, GBUFFER_SUBSURFACE_IN_EMISSION and
-// GBUFFER_OCCLUSION_IN_ALBEDO put them into the fourth components of those channels.
-// GBUFFER_WRITE declares the channels as outputs, otherwise they are textures.
+// Stores a surface in the channels of the G-buffer and reads it back. channelTable() (renderer/frame/GBufferLayout.h)
+// defines which channels exist, where and in which encoding; lib/gbuffer/gbuffer_channels.glsl defines their contents.
+// An fp32 channel has the attachment GBUFFER_<NAME>, one of GBUFFER_EXACT_CHANNELS. The fields of the others lie end to
+// end in GBUFFER_WORDS words, from the bit GBUFFER_<NAME> on, GBUFFER_<NAME>_WIDTHS bits wide; the words are in
+// attachments from GBUFFER_WORD_TEXTURE on, four in each, then two, then one. GBUFFER_SPARE_COMPONENTS: metallic and
+// alpha are the fourth components of albedo and normal. GBUFFER_MATERIAL_NUMBER: the fields of the normal are its code
+// and the number of the material, whose values are read from the table of all materials. GBUFFER_MARKS: attachment of
+// one or two words with the integers of lib/gbuffer/gbuffer_marks.glsl. GBUFFER_FACETS_IN_SPECULAR,
+// GBUFFER_LIFT_IN_NORMAL, GBUFFER_SUBSURFACE_IN_EMISSION and GBUFFER_OCCLUSION_IN_ALBEDO store them in the fourth
+// components of those channels instead. GBUFFER_WRITE declares the channels as outputs, otherwise they are textures.
 #pragma once
 #include "shared/slots.h"
 #include "lib/surface/surface.glsl"

@@ -1,19 +1,19 @@
-// The channels of the G-buffer one by one: how each is put there and taken back, in both encodings. channelDefines()
-// (renderer/frame/GBufferLayout.h) says which of them exist, and where, as the list GBUFFER_CHANNELS of
+// The channels of the G-buffer: functions that store (put) and load (take) each of them, in both encodings.
+// channelDefines() (renderer/frame/GBufferLayout.h) defines which exist, and where, as the list GBUFFER_CHANNELS of
 //   EXACT_CHANNEL(put, take, attachment)
 //   PACKED_CHANNEL(put, take, first bit, widths of its fields)
 #pragma once
 #include "lib/gbuffer/gbuffer_encodings.glsl"
 
-// How a channel is stored: as a texel of its own in fp32, or in the next fields of the words. The texel is an argument, not an
-// array of them, which compilers take long to take apart.
+// Encoding of a channel: an fp32 texel, or the next fields of the words. The texel is a function argument; compilers
+// take long to split an array of texels.
 struct Encoding {
     bool isPacked;
     ivec4 widths;
 };
 const Encoding kExact = Encoding(false, ivec4(0));
 
-// In fp32 the fourth component is metallic, which counts where there are GBUFFER_SPARE_COMPONENTS.
+// fp32: the fourth component is metallic, used with GBUFFER_SPARE_COMPONENTS, or the occlusion code.
 void putAlbedo(Encoding encoding, Surface surface, inout vec4 texel)
 {
     if (encoding.isPacked)
@@ -42,7 +42,7 @@ void takeAlbedo(Encoding encoding, vec4 texel, inout Surface surface)
 }
 
 #ifdef GBUFFER_MATERIAL_NUMBER
-// The code of the normal, then the number of the material.
+// The normal's code, then the number of the material.
 void putNormal(Encoding encoding, Surface surface, inout vec4 texel)
 {
     putField(surface.normalCode.shares.x, encoding.widths.x);
@@ -61,7 +61,7 @@ void takeNormal(Encoding encoding, vec4 texel, inout Surface surface)
     surface.material = takeField(encoding.widths.w);
 }
 #else
-// In fp32 the fourth component is alpha, which counts where there are GBUFFER_SPARE_COMPONENTS.
+// fp32: the fourth component is alpha, used with GBUFFER_SPARE_COMPONENTS, or the lift code.
 void putNormal(Encoding encoding, Surface surface, inout vec4 texel)
 {
     if (encoding.isPacked)
@@ -90,9 +90,9 @@ void takeNormal(Encoding encoding, vec4 texel, inout Surface surface)
 }
 #endif
 
-// In fp32: alpha, model, ior or F90, metallic. A model with one parameter stores it as ior; a microfacet model stores
-// its masking-shadowing option as metallic. Packed: model and masking-shadowing option, then alpha, F90 and metallic. A
-// microfacet model has its ior in the last two fields; a model with one parameter has it in all three.
+// fp32: alpha, model, ior or F90, metallic. A model with one parameter stores it in place of ior; a microfacet model
+// stores its masking-shadowing option in place of metallic. Packed: model and masking-shadowing option, then alpha, F90
+// and metallic. A microfacet model has its ior in the last two fields; a model with one parameter has it in all three.
 void putMicrosurface(Encoding encoding, Surface surface, inout vec4 texel)
 {
     bool hasParameter = HAS_PARAMETER(surface.model), isMicrofacet = IS_MICROFACET(surface.model);
@@ -165,7 +165,7 @@ void takeMicrosurface(Encoding encoding, vec4 texel, inout Surface surface)
         takePackedMicrosurface(encoding.widths, surface);
     else
         takeExactMicrosurface(texel, surface);
-    surface.specular = defaultSpecular(surface.model); // where no channel has it
+    surface.specular = defaultSpecular(surface.model); // unless a channel stores it
 }
 
 void putSpecular(Encoding encoding, Surface surface, inout vec4 texel)
@@ -174,7 +174,7 @@ void putSpecular(Encoding encoding, Surface surface, inout vec4 texel)
         putRoots(surface.specular, encoding.widths, DITHER_SPECULAR);
     else
 #ifdef GBUFFER_FACETS_IN_SPECULAR
-        texel = vec4(surface.specular, float(surface.facetCode)); // of 24 bits, which fp32 holds
+        texel = vec4(surface.specular, float(surface.facetCode)); // 24 bits, which fp32 holds
 #else
         texel = vec4(surface.specular, 0.0);
 #endif

@@ -1,24 +1,24 @@
-// Which of the two codes beside a value a packed field takes: a threshold by pixel and field, so that the mean over pixels is the
-// value, though each pixel is up to a step off. A threshold is the fractional part of x sqrt(p) + y sqrt(q), with primes p and q
-// that no other field has: fields are rounded independently, so that the mean of a product is right too, and by Weyl's theorem the
-// mean converges with the inverse of the number of pixels. Of the primes below 1500 these pairs keep like thresholds farthest
-// apart: |v|^2 times the distance of v . (sqrt(p), sqrt(q)) from an integer is above 0.17 for all v up to 32 pixels.
+// Dithers packed fields: a threshold per pixel and field selects one of two codes, so that the mean over pixels is the
+// value, though each pixel is up to a step off. Thresholds are the fractional part of x sqrt(p) + y sqrt(q); each field
+// has its own primes p and q, so that means of products are right too. By Weyl's theorem the mean converges with the
+// inverse of the number of pixels. Of the primes below 1500 these keep similar thresholds farthest apart: |v|^2 times
+// the distance of v . (sqrt(p), sqrt(q)) from an integer is above 0.17 for v up to 32 pixels.
 #pragma once
 
-// Rounded to the nearest code, for directions: their error only rotates a highlight, and noise would break it up.
+// Rounds to the nearest code, for directions: their error only rotates a highlight, and noise would break it up.
 #define DITHER_NOT -1
-#define DITHER_ALBEDO 0 // three
-#define DITHER_NORMAL 3 // two
-#define DITHER_ALPHA 5  // both alphas of a lobe, or one that is isotropic would become anisotropic; exponent
+#define DITHER_ALBEDO 0 // three components
+#define DITHER_NORMAL 3 // two components
+#define DITHER_ALPHA 5  // both alphas of a lobe alike, so that isotropic lobes stay isotropic; exponent
 #define DITHER_F90 6    // or index of refraction
 #define DITHER_METALLIC 7
-#define DITHER_SPECULAR 8  // three
-#define DITHER_EMISSION 11 // three
+#define DITHER_SPECULAR 8  // three components
+#define DITHER_EMISSION 11 // three components
 #define DITHER_COAT 14
 #define DITHER_COAT_ALPHA 15
-#define DITHER_SHEEN 16 // three
+#define DITHER_SHEEN 16 // three components
 #define DITHER_SHEEN_ALPHA 19
-#define DITHER_TEXEL 20 // three
+#define DITHER_TEXEL 20 // three components
 #define DITHER_FIELDS 23
 
 // Fractional parts of sqrt(p) and sqrt(q), times 2^32.
@@ -48,9 +48,9 @@ const uvec2 kDitherSteps[DITHER_FIELDS] = uvec2[](
     uvec2(0xB71EF1A2u, 0x9A8AD2BCu)  // 883, 1063
 );
 
-uvec2 ditheredPixel; // whose surface is being stored
+uvec2 ditheredPixel; // the pixel being stored
 
-// In 0..1, neither end.
+// In 0..1, excluding both ends.
 float ditherThreshold(int field)
 {
     if (field == DITHER_NOT) return 0.5;
@@ -58,8 +58,8 @@ float ditherThreshold(int field)
     return (float(fraction >> 9) + 0.5) * (1.0 / 8388608.0);
 }
 
-// 0 or 1, and `share` in the mean over pixels. What is within rounding of either, which grows with the number of steps of the
-// field, is that: values that lie on a step keep it.
+// Returns 0 or 1, with the mean `share` over pixels. A share within rounding of 0 or 1, by an error that grows with the
+// field's number of steps, is not dithered: values that lie on a step keep it.
 uint ditheredUp(float share, int field, uint steps)
 {
     float rounding = float(steps) * (1.0 / 4194304.0);

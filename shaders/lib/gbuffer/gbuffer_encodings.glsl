@@ -1,19 +1,19 @@
-// How the packed channels of the G-buffer keep their values: encoder and decoder of an encoding stand side by side. Widths are
-// those of the fields in channelTable() (renderer/frame/GBufferLayout.cpp); bounds of the errors are derived in docs/numerics.md.
+// Encoders and decoders of the packed channels of the G-buffer. Widths are those of the fields in channelTable()
+// (renderer/frame/GBufferTables.cpp); docs/numerics.md derives the error bounds.
 #pragma once
 #include "lib/maths/octahedral.glsl"
 #include "lib/surface/surface.glsl"
 #include "lib/gbuffer/gbuffer_words.glsl"
 
-// Colours in 0..1 as their square root, so that equal steps are closer to equal ratios. The steps are the largest multiples of 5
-// that fit, for then 1 and the 0.04 of a common dielectric (0.2 squared) come back exactly, and a scene that needs no specular
-// channel looks the same to the last bit with one.
+// Colours in 0..1 are stored as square roots, so that equal steps are closer to equal ratios. The number of steps is
+// the largest multiple of 5 that fits: then 1 and the 0.04 of a common dielectric (0.2 squared) are exact, and a scene
+// that needs no specular channel looks the same to the last bit with one.
 uint rootSteps(int width)
 {
     return largestCode(width) / 5u * 5u;
 }
 
-// The mean over pixels is that of the value, not of its root.
+// Dithering keeps the mean of the value, not of its root.
 uint encodeRoot(float value, uint steps, int field)
 {
     precise float held = clamp(value, 0.0, 1.0);
@@ -40,7 +40,7 @@ vec3 takeRoots(ivec4 widths)
     return color;
 }
 
-// The field is that of the first coordinate; DITHER_NOT rounds both to the nearest.
+// `field`: dither field of the first coordinate; DITHER_NOT rounds both to the nearest.
 void putOctahedral(vec2 code, ivec4 widths, int field)
 {
     putField(encodeSigned(code.x, widths.x, field), widths.x);
@@ -54,8 +54,8 @@ vec2 takeOctahedral(ivec4 widths)
     return code;
 }
 
-// Alpha as its fourth root, from that of ALPHA_MIN to 1: a step is 0.16 to 0.9 % of alpha in 11 bits, and finest where
-// highlights are wide enough to be seen. Their peak goes with 1 / alpha^2, and far from it radiance goes with alpha^2. Square roots are exact enough to be the same everywhere; a logarithm is not.
+// Alpha is stored as its fourth root, from that of ALPHA_MIN to 1: in 11 bits a step is 0.16 to 0.9 % of alpha, finest
+// for wide highlights. Peaks vary as 1 / alpha^2, tails as alpha^2. Square roots are portable, logarithms are not.
 const float kLeastRoot = 0.17782794; // the fourth root of ALPHA_MIN
 
 float decodeAlpha(uint code, int width)
@@ -66,7 +66,7 @@ float decodeAlpha(uint code, int width)
     return max(alpha, ALPHA_MIN);
 }
 
-// The mean over pixels is that of alpha, not of its root: a highlight that is off the picture has the same error in all of it.
+// Dithering keeps the mean of alpha, not of its root: a bias would be the same in the whole tail of a highlight.
 uint encodeAlpha(float alpha, int width, int field)
 {
     uint steps = largestCode(width);
@@ -77,8 +77,8 @@ uint encodeAlpha(float alpha, int width, int field)
     return below + ditheredUp(share, field, steps);
 }
 
-// Model and masking-shadowing option: the models, then each microfacet model with every option but the first. An
-// assertion beside the field's width checks that all fit.
+// Code of model and masking-shadowing option: the models, then each microfacet model with every option but the first. A
+// static_assert beside the field's width checks that all fit.
 #define OTHER_MASKINGS (MASKING_COUNT - 1u)
 
 uint encodeKind(Surface surface)
@@ -100,14 +100,14 @@ void decodeKind(uint kind, inout Surface surface)
 #endif
 }
 
-// The index of refraction as (ior - 1)/(ior + 1), the square root of the reflectance it causes, in -1..1. The steps are a multiple
-// of 10, so that ior 1 and 1.5 (0 and 0.2) are on one.
+// The index of refraction is stored as (ior - 1)/(ior + 1) in -1..1, whose magnitude is the square root of its
+// reflectance. The number of steps is a multiple of 10, so that ior 1 and 1.5 (0 and 0.2) are exact.
 uint iorSteps(int width)
 {
     return largestCode(width) / 10u * 10u;
 }
 
-// The mean over pixels is that of the reflectance.
+// Dithering keeps the mean of the reflectance.
 uint encodeIor(float ior, int width, int field)
 {
     int middle = int(iorSteps(width)) / 2;
@@ -125,7 +125,7 @@ float decodeIor(uint code, int width)
     return ior;
 }
 
-// 2^n for -126 <= n <= 127, exactly, which exp2 need not be.
+// 2^n for -126 <= n <= 127; exact, unlike exp2.
 float powerOfTwo(int n)
 {
     return uintBitsToFloat(uint(n + 127) << 23);
@@ -137,7 +137,7 @@ int topExponent(int width)
     return (1 << (width - 1)) + 4;
 }
 
-// x 2^n in two factors, neither of which leaves fp32.
+// x 2^n by two factors, so that none leaves fp32's range.
 float timesPowerOfTwo(float x, int n)
 {
     precise float scaled = x * powerOfTwo(n / 2);
@@ -156,8 +156,8 @@ uvec3 encodeRadiances(vec3 color, int exponent, int width)
                  encodeRadiance(color.b, exponent, width, DITHER_EMISSION + 2));
 }
 
-// Radiance with one exponent for its three colours: each is below 2^exponent, and an integer times 2^(exponent - its width).
-// Widths: exponent, red, green and blue, which are equal.
+// Radiance with a shared exponent: each channel is below 2^exponent and an integer times 2^(exponent - its width).
+// Widths: exponent, red, green and blue; the last three are equal.
 void putRadiance(vec3 color, ivec4 widths)
 {
     vec3 c = clamp(color, 0.0, 3.4e38);
@@ -165,8 +165,8 @@ void putRadiance(vec3 color, ivec4 widths)
     int top = topExponent(widths.x), bottom = top - int(largestCode(widths.x));
     int exponent = clamp(int(floatBitsToUint(largest) >> 23) - 126, bottom, top);
     uvec3 code = encodeRadiances(c, exponent, widths.y);
-    // A colour that is rounded up to the next power of two takes all three there; with the thresholds as they are it is
-    // that power, so the mean stays.
+    // A channel rounded up to the next power of two raises the shared exponent. With the same thresholds it is encoded
+    // as that power, so the mean is kept.
     if (any(greaterThan(code, uvec3(largestCode(widths.y)))) && exponent < top) {
         exponent += 1;
         code = encodeRadiances(c, exponent, widths.y);
@@ -198,8 +198,8 @@ vec3 takeTexel(ivec4 widths)
     return texel;
 }
 
-// Two directions at right angles to n, which turn smoothly with it: the first is also at right angles to the coordinate axis of
-// that number, which must not be near n.
+// Two unit vectors at right angles to n that vary smoothly with it. The first is also at right angles to the coordinate
+// axis `axis`, which must not be near n.
 void axisFrame(vec3 n, uint axis, out vec3 first, out vec3 second)
 {
     vec3 across = axis == 0u ? vec3(0.0, -n.z, n.y) : axis == 1u ? vec3(n.z, 0.0, -n.x) : vec3(-n.y, n.x, 0.0);
@@ -207,9 +207,9 @@ void axisFrame(vec3 n, uint axis, out vec3 first, out vec3 second)
     second = cross(n, first);
 }
 
-// A direction at right angles to the normal, whose sign does not matter: a point p on half of a diamond, (p, 1 - |p|) in the
-// frame of the axis farthest from the normal; the decoder has a normal that is off by its own packing and must be told the
-// axis. Widths: axis and point.
+// Stores a direction at right angles to the normal, whose sign does not matter, as a point p on half of a diamond:
+// (p, 1 - |p|) in the frame of the coordinate axis farthest from the normal. The axis is stored, since the decoder's
+// normal has a quantisation error. Widths: axis and point.
 void putDirectionAcross(vec3 normal, vec3 across, ivec4 widths)
 {
     vec3 n = abs(normal);

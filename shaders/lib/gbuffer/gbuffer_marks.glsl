@@ -1,5 +1,5 @@
-// What pixels hold beside the channels, one by one: the whole number that says it, and what is taken from that.
-// markDefines() (renderer/frame/GBufferLayout.h) says which marks exist, and where, as the list GBUFFER_MARK_LIST of
+// Integers that pixels hold beside the channels (marks): functions that encode each of them, and that load it.
+// markDefines() (renderer/frame/GBufferLayout.h) defines which exist, and where, as the list GBUFFER_MARK_LIST of
 //   MARK(code, take, first bit of the words, bits)
 #pragma once
 #include "lib/surface/surface.glsl"

@@ -1,16 +1,16 @@
-// The words in which the fields of packed channels lie end to end, and what an integer field of so many bits can say. A word and
-// not a normalised format, because OpenGL lets a driver round those either way (4.5 core, section 2.3.5.2) and llvmpipe is up to
-// a whole step off.
+// Packs the fields of channels end to end into words, and quantises values to integer fields. Words are used instead of
+// normalised formats, because OpenGL lets a driver round those either way (4.5 core, section 2.3.5.2), and llvmpipe is
+// up to a whole step off.
 #pragma once
 #include "lib/gbuffer/gbuffer_dither.glsl"
 #include "shared/normals.h"
 
 const int kGBufferWords = GBUFFER_WORDS > 0 ? GBUFFER_WORDS : 1;
 uint gbufferWords[kGBufferWords];
-int gbufferBit; // where the next field begins
+int gbufferBit; // first bit of the next field
 
-// Where a field goes on that ends in another word than it begins in. NVIDIA's compiler refuses an index beyond the array
-// even where it is not reached.
+// The second word of a field that crosses a word boundary. Clamped, because NVIDIA's compiler refuses an index beyond
+// the array even where it is never reached.
 int wordAfter(int word)
 {
     return min(word + 1, kGBufferWords - 1);
@@ -38,7 +38,7 @@ uint largestCode(int width)
     return (1u << width) - 1u;
 }
 
-// 0..1 in equal steps, both ends exactly. Encoders take the number of their field, DITHER_*.
+// Quantises 0..1 in equal steps; both ends are exact. `field`: a number DITHER_*.
 uint encodeShare(float x, uint steps, int field)
 {
     precise float position = clamp(x, 0.0, 1.0) * float(steps);
@@ -46,7 +46,7 @@ uint encodeShare(float x, uint steps, int field)
     return below + ditheredUp(position - float(below), field, steps);
 }
 
-// The ends are exact on drivers too whose division is not (GLSL 4.50, section 4.7.1).
+// Both ends are exact, also on drivers whose division is not (GLSL 4.50, section 4.7.1).
 float decodeShare(uint code, uint steps)
 {
     precise float x = code == steps ? 1.0 : float(code) / float(steps);
@@ -59,7 +59,7 @@ uint encodeSigned(float x, int width, int field)
     return encodeShare(0.5 * x + 0.5, largestCode(width) - 1u, field);
 }
 
-// A float >= 0 by the topmost bits below its sign: 8 of exponent, then mantissa.
+// Stores the highest bits of a float >= 0 below its sign: 8 bits of exponent, then mantissa.
 uint encodeFloat(float x, int width, int field)
 {
     int dropped = 31 - width;

@@ -18,7 +18,7 @@ layout(location = GBUFFER_WORD_TEXTURE + GBUFFER_WORDS / 4 + (GBUFFER_WORDS & 2)
 #endif
 
 #ifdef GBUFFER_MARKS
-layout(location = GBUFFER_MARKS) out uvec2 marks; // the second where there are so many
+layout(location = GBUFFER_MARKS) out uvec2 marks; // the second is unused if one word suffices
 #endif
 
 void storeWords()

@@ -1,4 +1,4 @@
-// Edges of outlines, from a point: what each adds to what a clamped cosine around z sees, and their parts above a plane.
+// Edges of light outlines seen from a point: their terms in the integral of a clamped cosine around z, and clipping.
 #pragma once
 #include "lib/maths/math.glsl"
 
@@ -15,36 +15,36 @@ float angleOverSine(float x)
     return inX;
 }
 
-// The angle between two directions, times the height of the unit normal of their plane: a part of Lambert's formula for
-// the irradiance of a polygon (Lambert 1760, "Photometria"). `edge` is b - a, with digits that a difference would lose.
+// Angle between two directions, times the height (z) of the unit normal of their plane: an edge's term in Lambert's
+// formula for the irradiance of a polygon (Lambert 1760, "Photometria"). `edge` is b - a, passed in with more digits.
 float edgePart(vec3 a, vec3 b, vec3 edge)
 {
-    precise vec3 across = cross(a, edge); // of nearly equal vectors the products would cancel
+    precise vec3 across = cross(a, edge); // cross(a, b) would cancel for nearly equal vectors
     precise float lengths = sqrt(dot(a, a)) * sqrt(dot(b, b)); // the product of squares might overflow
     if (!(lengths > 0.0)) return 0.0;
     precise float cosine = clamp(dot(a, b) / lengths, -1.0, 1.0);
     precise float acute = angleOverSine(abs(cosine)) * (across.z / lengths);
     if (cosine >= 0.0) return acute;
-    // The height itself, since the sine of nearly opposite directions has no digits left in the cosine.
+    // Computes the height directly, since the cosine of nearly opposite directions holds no digits of the sine.
     precise float height = across.z / max(length(across), 1e-18);
     precise float obtuse = kPi * height - acute;
     return obtuse;
 }
 
-// The same of an edge that closes an outline along a plane of which the height of the unit normal is known, with the sign
-// of the outline's turn: it has one too where the edge runs through the point, which lies in the light's plane.
+// edgePart() of an edge that closes an outline along a clipping plane; `height`: z of the plane's unit normal, with the
+// outline's winding as its sign. Not 0 even if the edge runs through the point, in the light's plane.
 float closingPart(vec3 a, vec3 b, float height)
 {
     precise vec3 across = cross(a, b - a);
     precise float lengths = sqrt(dot(a, a)) * sqrt(dot(b, b)); // the product of squares might overflow
     if (!(lengths > 0.0)) return 0.0;
     precise float cosine = clamp(dot(a, b) / lengths, -1.0, 1.0);
-    precise float acute = angleOverSine(abs(cosine)) * (length(across) / lengths); // errs as other edges do
+    precise float acute = angleOverSine(abs(cosine)) * (length(across) / lengths); // same errors as in edgePart()
     precise float part = (cosine >= 0.0 ? acute : kPi - acute) * height;
     return part;
 }
 
-// Of such an edge: 1 along the way that a convex outline is closed, -1 against it.
+// Sign of a closing edge: 1 in the direction in which a convex outline is closed, -1 against it.
 float closingTurn(vec3 a, vec3 b, vec2 way)
 {
 #if HAS_POLYGON_LIGHTS
@@ -55,15 +55,15 @@ float closingTurn(vec3 a, vec3 b, vec2 way)
 #endif
 }
 
-// Cuts an outline where it goes below a plane, and closes it there.
+// State of clipping an outline at a plane and closing it along that plane.
 struct Cut {
-    vec3 left, entered; // where it went below, and where it came up first
+    vec3 left, entered; // where the outline last went below, and where it first came up
     bool isBelow;       // it went below and has not come up
     bool hasEntered;    // it came up before it first went below
 };
 const Cut kNoCut = Cut(vec3(0.0), vec3(0.0), false, false);
 
-// The part of an edge above z = 0; false where there is none. `edge` is b - a.
+// Clips an edge to z > 0; false if nothing is left. `edge` is b - a.
 bool cutEdge(inout vec3 a, inout vec3 b, inout vec3 edge, inout Cut cut, out bool comesUp)
 {
     bool aIsAbove = a.z > 0.0, bIsAbove = b.z > 0.0;

@@ -1,16 +1,15 @@
-// Where rays meet the surfaces of area lights, in closed form. A file that includes this may bring
-// cornerOf(light, corner), in the units of its places, and says so by HAS_CORNERS.
+// Closed-form intersections of rays with area lights. An including file may define cornerOf(light, corner), in the
+// units of its positions, together with HAS_CORNERS.
 #pragma once
 
-// From the middle of the light: a point of the ray is start + ahead * direction.
+// Relative to the light's centre: points of the ray are start + ahead * direction.
 struct Ray {
     vec3 start;
     vec3 direction;
 };
 
-// Where the ray enters a ball, or of components across an axis an endless cylinder. Measured from the point that is
-// nearest to the middle, no digits cancel for a small light far away.
-// Source: Haines, Guenther, Akenine-Moeller 2019, "Precision Improvements for Ray/Sphere Intersection".
+// Entry of a ray into a sphere or, given components across an axis, into an infinite cylinder. It is measured from the
+// ray's point nearest to the centre, so that no digits cancel for a small light far away.
 bool meetsRound(Ray ray, float radius, out float ahead)
 {
     precise float square = dot(ray.direction, ray.direction);
@@ -19,11 +18,11 @@ bool meetsRound(Ray ray, float radius, out float ahead)
     precise float room = radius * radius - dot(nearest, nearest);
     precise float met = halfway - sqrt(max(room, 0.0) / square);
     ahead = met;
-    return room > 0.0; // false where the ray runs along the axis
+    return room > 0.0; // false if the ray runs along the axis
 }
 
-// A closed cylinder around a unit axis, w half its length: the end that faces the ray, or else the mantle between the
-// ends.
+// Entry of a ray into a closed cylinder: at the end that faces the ray, else at the lateral surface. `axis`: xyz unit
+// axis, w half length.
 bool meetsTube(Ray ray, vec4 axis, float radius, out float ahead, out bool isEnd)
 {
     precise float direction = dot(ray.direction, axis.xyz), start = dot(ray.start, axis.xyz);
@@ -40,7 +39,7 @@ bool meetsTube(Ray ray, vec4 axis, float radius, out float ahead, out bool isEnd
         isEnd = dot(place, place) <= radius * radius;
         if (isEnd) return true;
     }
-    // Rounding leaves no gap between an end and the mantle.
+    // Prevents a gap by rounding between an end and the lateral surface.
     const float kLonger = 1.00001;
     bool meets = meetsRound(across, radius, ahead);
     precise float height = start + ahead * direction;
@@ -48,7 +47,7 @@ bool meetsTube(Ray ray, vec4 axis, float radius, out float ahead, out bool isEnd
 }
 
 #ifdef HAS_CORNERS
-// Whether edges to one side of a place cross its height an odd number of times.
+// Point-in-polygon test by the even-odd rule.
 bool isWithinPolygon(vec2 place, int light, int corners)
 {
     bool isWithin = false;
@@ -56,7 +55,7 @@ bool isWithinPolygon(vec2 place, int light, int corners)
     for (int i = 0; i < corners; ++i) {
         vec2 to = cornerOf(light, i);
         if ((from.y > place.y) != (to.y > place.y)) {
-            // From the lower corner whichever way the edge runs, so that surfaces that share it leave no gap.
+            // Computed from the lower corner in either direction, so that polygons that share the edge leave no gap.
             vec2 low = from.y < to.y ? from : to, high = from.y < to.y ? to : from;
             precise float side = (high.x - low.x) * (place.y - low.y) - (place.x - low.x) * (high.y - low.y);
             if (side > 0.0) isWithin = !isWithin;

@@ -1,6 +1,6 @@
-// The light of areas on a surface: what a clamped cosine sees of an outline, in the frame that linearly transforms it to
-// a lobe (docs/area-lights.md). Source: Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with
-// Linearly Transformed Cosines".
+// Area lights in closed form: integrates a clamped cosine over the light's outline, in the frame that linearly
+// transforms a lobe to that cosine (docs/area-lights.md). Source: Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time
+// Polygonal-Light Shading with Linearly Transformed Cosines".
 #pragma once
 #include "lib/light/area_edges.glsl"
 #include "lib/light/area_lobe.glsl"
@@ -12,8 +12,8 @@
 
 // ---- Outlines -------------------------------------------------------------------------------------------------------
 
-// What is seen of a light that is so small that the lobe is the same all over it, and that parts of its edges would
-// cancel. `facing` is its area times the distance of its plane; metres from the point, as all.
+// Fraction of a lobe covered by a light so small that the lobe is constant over it and edge terms would cancel.
+// `facing`: the light's area times the distance of its plane. All positions are in metres from the shaded point.
 float shareOfPlace(vec3 place, float facing, AreaLobe lobe)
 {
     precise vec3 onSurface = lobe.surfaceFromLS * place;
@@ -24,14 +24,14 @@ float shareOfPlace(vec3 place, float facing, AreaLobe lobe)
     return share;
 }
 
-// And of one that is so narrow: the integral of z / distance^4 along its middle line, from which `facing` makes the light
-// of its area. The two ends span an angle of 2 d; h is the line's distance:
+// The same for a light that is narrow: the integral of z / distance^4 along its centre line, which `facing` scales to
+// the light's area. The ends span an angle of 2 d, and h is the vector to the line's nearest point:
 //     ((d - sin(d) cos(d)) h.z / |h| + sin(2 d) (h . bisector) / |h| bisector.z) / |h|^2
 float shareOfLine(vec3 middle, vec3 halfLine, float facing, AreaLobe lobe)
 {
     precise vec3 onSurface = lobe.surfaceFromLS * middle, alongSurface = lobe.surfaceFromLS * halfLine;
     precise vec3 seen = lobe.cosineFromSurface * onSurface, along = lobe.cosineFromSurface * alongSurface;
-    // Above the surface and in the cosine's hemisphere: both heights are linear along the line.
+    // Clips to the part above the surface and in the cosine's hemisphere: both heights are linear along the line.
     vec2 part = vec2(-1.0, 1.0);
     for (int plane = 0; plane < 2; ++plane) {
         float height = plane == 0 ? onSurface.z : seen.z, rise = plane == 0 ? alongSurface.z : along.z;
@@ -52,15 +52,15 @@ float shareOfLine(vec3 middle, vec3 halfLine, float facing, AreaLobe lobe)
     precise float h = length(moment) / halfMetres;
     precise float perHeight = metres * inverse; // sin(2 d) / h
     precise float sine = min(h * perHeight, 1.0), cosine = clamp(dot(first, second) * inverse, -1.0, 1.0);
-    // 2 + 2 cos(2 d), which cancels where the line reaches far to both sides.
+    // 2 + 2 cos(2 d), which cancels if the line extends far to both sides.
     precise float bisector2 = cosine > 0.0 ? 2.0 + 2.0 * cosine : max(2.0 * sine * sine / (1.0 - cosine), 1e-18);
     precise float heights = max(first.z, 0.0) / r0 + max(second.z, 0.0) / r1;
     precise float sum = perHeight * ((1.0 / r0 + 1.0 / r1) * heights / bisector2);
-    // (d - sin(d) cos(d)) / h^3: half of x - sin(x), which cancels where x is small.
+    // (d - sin(d) cos(d)) / h^3: half of x - sin(x) with x = 2 d, which cancels for small x.
     precise float ofHeight;
     if (cosine > 0.0 && sine < 0.2) {
         precise float sine2 = sine * sine;
-        precise float x = 1.0 + sine2 * (1.0 / 6.0 + sine2 * (3.0 / 40.0)); // over the sine
+        precise float x = 1.0 + sine2 * (1.0 / 6.0 + sine2 * (3.0 / 40.0)); // x over the sine
         precise float x2 = x * x * sine2;
         ofHeight = (perHeight * perHeight * perHeight) * (x * x * x) * (1.0 - x2 * (1.0 / 20.0 - x2 / 840.0)) / 12.0;
     } else {
@@ -72,12 +72,12 @@ float shareOfLine(vec3 middle, vec3 halfLine, float facing, AreaLobe lobe)
     return max(share, 0.0);
 }
 
-// Lights that reach less far across than this from their middle line, in parts of their distance, are lines: there edges
-// are right to 1e-4, and lines to 1e-5.
+// Lights that extend less than this to the sides of their centre line, relative to their distance, are treated as
+// lines. At this limit edges are accurate to 1e-4, and lines to 1e-5.
 const float kNarrow = 2e-3;
-const float kSmall2 = 4e-6; // what reaches less far to all sides is a place: the square of that
+const float kSmall2 = 4e-6; // square of the same limit in all directions, below which a light is treated as a point
 
-// What a lobe sees of an outline, 1 where it fills the hemisphere.
+// Fraction of a lobe covered by an outline, 1 if it fills the hemisphere.
 float shareSeen(Outline outline, AreaLobe lobe)
 {
     precise mat3 cosineFromLS = lobe.cosineFromSurface * lobe.surfaceFromLS;
@@ -110,13 +110,13 @@ float shareSeen(Outline outline, AreaLobe lobe)
             return min(share * lobe.perAbove, 1.0);
         }
     }
-    // Seen from the point; then edges along a horizon have their hemisphere on the right.
+    // Winding as seen from the point; if clockwise, edges along a horizon have their hemisphere on the right.
     bool isClockwise = isLong || dot(outline.middle, cross(outline.right, outline.up)) > 0.0;
     float turn = isClockwise ? 1.0 : -1.0;
     precise vec3 surfaceNormal = cross(lobe.cosineFromSurface[0], lobe.cosineFromSurface[1]);
     precise float surfaceHeight = turn * surfaceNormal.z / length(surfaceNormal);
-    // The ways in which a convex outline is closed along the horizon and along the cosine's; other parts of a polygon that
-    // is not convex run back.
+    // Directions in which a convex outline is closed along the surface's horizon and along the cosine's; parts of a
+    // concave polygon may run against them.
     vec2 horizonWay = vec2(0.0), baseWay = vec2(0.0);
     if (isPolygon(outline)) {
         precise vec3 facesSurface = lobe.surfaceFromLS * outline.faces;
@@ -128,7 +128,7 @@ float shareSeen(Outline outline, AreaLobe lobe)
     Cut horizon = kNoCut, base = kNoCut;
     precise vec3 corner = outlineCorner(outline, 0);
     precise vec3 a = lobe.surfaceFromLS * (outline.middle + corner);
-    // One more round than edges: what closes the outline along the horizon.
+    // One more iteration than edges closes the outline along the horizon.
     for (int edge = 0; edge <= outline.edges; ++edge) {
         vec3 from = a, to = a, along = vec3(0.0);
         bool isThere, comesUp = false;
@@ -148,7 +148,7 @@ float shareSeen(Outline outline, AreaLobe lobe)
             along = to - from;
         }
         bool isClosing = edge == outline.edges;
-        // Where the outline comes up again, the line along the horizon comes first.
+        // Where the outline comes up again, the segment along the horizon is added first.
         bool closes = comesUp && horizon.isBelow;
         for (int part = closes ? 0 : 1; part < 2; ++part) {
             if (!isThere) continue;
@@ -181,10 +181,10 @@ float shareSeen(Outline outline, AreaLobe lobe)
 
 #define AREA_LOBES 3 // the diffuse reflection, the lobe and the coat
 
-// Of the surface that is lit, the same for all lights.
+// Lobes of the shaded surface, the same for all lights.
 AreaLobe areaLobes[AREA_LOBES];
-vec3 areaWeights[AREA_LOBES]; // radiance towards the viewer per radiance of a light that is all a lobe sees
-vec3 areaEntering;            // per irradiance that enters: of wrapped light
+vec3 areaWeights[AREA_LOBES]; // radiance towards the viewer per radiance of a light that fills the lobe
+vec3 areaEntering;            // per entering irradiance, for wrapped light
 
 void prepareAreaLobes(SeenSurface seen)
 {
@@ -211,7 +211,7 @@ void prepareAreaLobes(SeenSurface seen)
 #endif
 }
 
-// Radiance towards the viewer that the surface of prepareAreaLobes() reflects of area light `index`.
+// Radiance towards the viewer from area light `index`, reflected by the surface passed to prepareAreaLobes().
 vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, Viewpoint viewpoint, vec3 toLightLS, vec3 smallIrradiance)
 {
     vec4 place = lightTexel(index, 0);
@@ -234,7 +234,7 @@ vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, Viewpoint viewpoi
     }
     precise vec3 light = reflected * ((window * window) * lightTexel(index, 1).rgb);
 #if HAS_SUBSURFACE_WRAP
-    // What wraps is hardly anything of a large light, and taken from its middle.
+    // Wrapped light is a small part of a large light, and approximated at the light's centre.
     if (wrapsLight(seen.surface)) {
         precise float cosine = dot(seen.surface.normalLS, toLightLS);
         light += areaEntering * wrappedExcess(seen.surface, cosine) * smallIrradiance;

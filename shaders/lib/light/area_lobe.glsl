@@ -1,5 +1,5 @@
-// Lobes as area lights are seen by them: frames that linearly transform each to a clamped cosine (docs/area-lights.md).
-// Source: Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines".
+// Lobes for area lights: matrices that linearly transform each lobe to a clamped cosine (docs/area-lights.md). Source:
+// Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines".
 #pragma once
 #include "lib/reflectance/even_light.glsl"
 #include "shared/lobe_shapes.h"
@@ -8,9 +8,9 @@
 layout(binding = TEXTURE_UNIT_LOBE_SHAPES) uniform sampler2D lobeShapes;
 
 struct AreaLobe {
-    mat3 surfaceFromLS; // to axes of which z is the normal and x the viewer's projection
+    mat3 surfaceFromLS; // z is the normal, x the viewer's projection
     mat3 cosineFromSurface;
-    float perAbove; // 1 over the share of the lobe above the surface
+    float perAbove; // 1 over the fraction of the lobe above the surface
 };
 
 mat3 surfaceAxes(vec3 normal, vec3 toViewer, float nv, out float sineView)
@@ -18,7 +18,7 @@ mat3 surfaceAxes(vec3 normal, vec3 toViewer, float nv, out float sineView)
     precise vec3 projected = toViewer - nv * normal;
     precise float sine = length(projected);
     sineView = sine;
-    // What rounding leaves of the normal in a short projection would shear the axes.
+    // Orthogonalised again: the rounding residue of the normal in a short projection would shear the axes.
     precise vec3 unit = projected / max(sine, 1e-18);
     precise vec3 level = unit - dot(unit, normal) * normal;
     vec3 x = sine > 1e-6 ? safeNormalize(level, anyPerpendicular(normal)) : anyPerpendicular(normal);
@@ -41,8 +41,8 @@ AreaLobe areaLobe(vec3 normal, vec3 toViewer, float nv, float alpha)
 }
 
 #if HAS_TANGENT_FRAME
-// The same of a lobe with two alphas. The slopes of its facets lie around an ellipse along the tangent; in the frame of
-// the viewer's plane that is an ellipse along the plane, stretched across it and sheared.
+// areaLobe() of an anisotropic lobe. Its slopes are distributed over an ellipse along the tangent; in the frame of the
+// viewer's plane that is a distribution with the alpha along the plane, stretched across it and sheared.
 AreaLobe stretchedLobe(SeenSurface seen)
 {
     float sineView;
@@ -54,7 +54,7 @@ AreaLobe stretchedLobe(SeenSurface seen)
     precise float both = (alpha.x * alpha.x - alpha.y * alpha.y) * tangent.x * tangent.y / max(dot(tangent, tangent), 1e-18);
     AreaLobe lobe = areaLobe(seen.surface.normalLS, seen.toViewer, seen.nv, sqrt(along2));
     precise float narrower = along2 / (alpha.x * alpha.y);
-    // What is stretched is the share across the viewer's plane alone: as much of the lobe stays above the surface.
+    // Only the component across the viewer's plane is stretched: as much of the lobe stays above the surface.
     lobe.cosineFromSurface = stretchedAcross(lobe.cosineFromSurface, narrower, both / along2);
     return lobe;
 }

@@ -1,6 +1,6 @@
-// What a point sees of an area light: an outline of straight edges, convex but for polygons. Round ones have kRoundEdges of them and
-// the area of the circle, so that their light is right to 1e-4 and their edge to 3e-3 of the radius; of a tube an end that
-// is seen as many, one that is hidden half of them, and 1.4e-2.
+// Outline of an area light seen from a point: straight edges, convex except for polygons. Round outlines have
+// kRoundEdges edges and the area of the circle, so that their light is accurate to 1e-4 and their edge to 3e-3 of the
+// radius. A tube's visible end has as many; its hidden end has half as many, accurate to 1.4e-2.
 #pragma once
 #include "shared/light.h"
 #include "shared/light_pictures.h"
@@ -10,23 +10,23 @@
 const int kRoundEdges = 32;
 const float kRoundGrowth = 1.0032206; // sqrt(2 pi / (32 sin(2 pi / 32)))
 
-// The vertices lie on two arcs around places on the axis; the other shapes have one of the two.
+// A tube's vertices lie on two arcs around its ends; other round shapes have one arc.
 struct Outline {
-    vec3 middle;    // metres from the point, as all
-    vec3 faces;     // what is seen as flat: along its normal, as long as it is large
-    vec3 right, up; // of a rectangle the halves of its sides; else radii at right angles, of a polygon around its corners
-    vec3 toEnds;    // from the middle to the middle of the first arc, and back to the second
-    vec2 turns;     // of a tube the angle between two vertices of the first arc, and of the second
-    vec2 firstTurn; // the angle of the first vertex of either
-    // Of a tube, as flat pieces: the strip between the lines, and what of either end lies beyond it. Each has its square
-    // metres times the point's distance from its plane.
-    vec3 toSide; // from the middle to that of the strip; of a polygon to that of its area
+    vec3 middle;    // centre; metres from the point, like all members
+    vec3 faces;     // flat shapes: normal times area
+    vec3 right, up; // rectangle: half sides; polygon: axes of its corners; else perpendicular radii
+    vec3 toEnds;    // from the centre to the centre of the first arc; its opposite: to the second
+    vec2 turns;     // angle between adjacent vertices of the first arc, and of the second
+    vec2 firstTurn; // angle of the first vertex of either arc
+    // A tube as flat pieces: the strip between the lines, and the part of either end beyond it. ofSide and ofEnds are
+    // their areas times the point's distance from their planes.
+    vec3 toSide; // from the centre to that of the strip; of a polygon to its centroid
     float ofSide;
     vec2 ofEnds;
-    ivec2 arcEdges; // of either arc
-    int edges;      // 0 where nothing is seen
+    ivec2 arcEdges; // numbers of edges of the arcs
+    int edges;      // 0 if nothing is visible
     bool isRound;
-    int polygon; // its number among the lights, of which it has its corners; -1 of other shapes
+    int polygon; // index of a polygon among the lights, for its corners; else -1
 };
 
 const Outline kNoOutline = Outline(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0), vec2(0.0),
@@ -40,7 +40,7 @@ Outline roundOutline(vec3 middle, vec3 right, vec3 up, vec3 faces)
 }
 
 #if HAS_SPHERE_LIGHTS
-// A sphere is the disk that its outline spans.
+// A sphere is replaced by the disk within its silhouette.
 Outline sphereOutline(vec3 middle, float radius)
 {
     precise float distance2 = dot(middle, middle);
@@ -59,20 +59,20 @@ Outline sphereOutline(vec3 middle, float radius)
 #endif
 
 #if HAS_TUBE_LIGHTS
-// A closed cylinder: of each end the half of its edge that lies outwards, and the two lines between them. Within the
-// cylinder's continuation the hidden end and the lines shrink to the point where they meet the edge of the other end, so
-// that nothing jumps where the point comes out of it.
+// Silhouette of a closed cylinder: the outward half of the edge of each end, and the two lines between them. For a
+// point within the cylinder's continuation, the hidden end and the lines shrink to the point where they meet the edge
+// of the other end, so that the outline is continuous where the point leaves it.
 Outline tubeOutline(vec3 middle, vec3 halfLength, float radius)
 {
     precise float halfMetres = max(length(halfLength), 1e-18);
     precise vec3 axis = halfLength / halfMetres;
-    precise float along = -dot(middle, axis); // of the point
+    precise float along = -dot(middle, axis); // position of the point along the axis
     precise vec3 outwards = -middle - along * axis;
     precise float away2 = dot(outwards, outwards), away = sqrt(away2);
     bool seesFirst = along > halfMetres, seesSecond = along < -halfMetres;
     bool seesSide = away > radius;
     if (!seesSide && !seesFirst && !seesSecond) return kNoOutline;
-    // Twice across the axis, since of a point on it rounding alone is left.
+    // Orthogonalised twice, since for a point on the axis only rounding is left.
     precise vec3 radial = safeNormalize(outwards, anyPerpendicular(axis));
     precise vec3 across = radial - dot(radial, axis) * axis;
     radial = dot(across, across) > 0.25 ? normalize(across) : anyPerpendicular(axis);
@@ -80,13 +80,13 @@ Outline tubeOutline(vec3 middle, vec3 halfLength, float radius)
     precise vec3 up = radius * cross(axis, radial);
     precise float cosHalf = min(radius / max(away, 1e-18), 1.0);
     precise float sinHalf = sqrt((1.0 - cosHalf) * (1.0 + cosHalf));
-    float seenHalf = atan(sinHalf, cosHalf); // the tube's side is seen that far to either side
+    float seenHalf = atan(sinHalf, cosHalf); // half angle of the visible side
     precise float ofSide = 4.0 * halfMetres * radius * away * (sinHalf * sinHalf * sinHalf);
-    // The segment of an end between the strip and the point; of an end that is seen the rest.
+    // For a hidden end, the segment between the strip and the point; for a visible one, the rest of the disk.
     precise float segment = seenHalf - sinHalf * cosHalf;
     precise vec2 shares = vec2(seesFirst ? kPi - segment : segment, seesSecond ? kPi - segment : segment);
     precise vec2 ofEnds = radius * radius * shares * abs(vec2(along - halfMetres, along + halfMetres));
-    // Round the front of an end that is hidden, round the back of one that is seen.
+    // Around the front of a hidden end, around the back of a visible one.
     ivec2 arcEdges = ivec2(seesFirst ? kRoundEdges : kRoundEdges / 2, seesSecond ? kRoundEdges : kRoundEdges / 2);
     precise vec2 arcs = vec2(seesFirst ? 2.0 * seenHalf - 2.0 * kPi : 2.0 * seenHalf,
                              seesSecond ? 2.0 * kPi - 2.0 * seenHalf : -2.0 * seenHalf);
@@ -106,7 +106,7 @@ Outline polygonOutline(int index, vec3 middle, vec3 right, vec3 up, vec3 faces)
 }
 #endif
 
-// Of area light `index`.
+// Outline of area light `index`.
 Outline areaOutline(int index, int kind, vec3 middle)
 {
     int type = kind & LIGHT_TYPE_MASK;
@@ -147,7 +147,7 @@ bool isPolygon(Outline outline)
 #endif
 }
 
-// From the light's middle to a vertex; vertex `edges` is the first again.
+// From the light's centre to a vertex; vertex `edges` is the first again.
 vec3 outlineCorner(Outline outline, int vertex)
 {
     int number = vertex == outline.edges ? 0 : vertex;
@@ -171,8 +171,8 @@ vec3 outlineCorner(Outline outline, int vertex)
         isFirst = number <= outline.arcEdges.x;
         int arcEdges = isFirst ? outline.arcEdges.x : outline.arcEdges.y;
         if (!isFirst) onArc -= outline.arcEdges.x + 1;
-        // The ends of an arc lie on it, so that the lines between arcs are the tube's; those between are moved out until
-        // the area is that of the arc.
+        // The end vertices of an arc lie on it, so that the lines between arcs are the tube's; the others are moved out
+        // until the area is that of the arc.
         float turn = abs(isFirst ? outline.turns.x : outline.turns.y);
         precise float ratio = turn > 1e-3 ? turn / sin(turn) : 1.0;
         float inner = float(arcEdges - 2);

@@ -1,11 +1,11 @@
-// The picture of a flat area light as a lobe sees it (docs/area-lights.md).
+// The light texture of a flat area light, averaged over a lobe (docs/area-lights.md).
 #pragma once
 #include "lib/light/area_edges.glsl"
 #include "lib/light/area_lobe.glsl"
 #include "lib/light/area_outline.glsl"
 #include "lib/light/light_picture.glsl"
 
-// An edge's part of the vector irradiance, of which edgePart() is the height.
+// An edge's term of the vector irradiance; edgePart() is its height (z).
 vec3 edgeVector(vec3 a, vec3 b)
 {
     precise float lengths = sqrt(dot(a, a)) * sqrt(dot(b, b));
@@ -17,7 +17,7 @@ vec3 edgeVector(vec3 a, vec3 b)
     return part;
 }
 
-// Corners one by one; each is cut off at the horizon, then at the cosine's, and what is left adds its edges.
+// Clips a polygon, corner by corner, at the surface's horizon, then at the cosine's, and sums the remaining edges.
 struct CutCorners {
     vec3 last, lastBase, lastAbove, firstBase, firstAbove;
     bool hasBase, hasAbove;
@@ -52,8 +52,8 @@ void addBase(inout CutCorners cut, vec3 corner, bool isAgain)
     cut.lastBase = corner;
 }
 
-// The direction of the mean of what a lobe sees of a flat outline, of any length and sign, in the frame of the cosine.
-// It needs few digits: what is seen so small that they are lost is seen as the mean of its picture.
+// Mean direction of the visible part of a flat outline under a lobe, of any length and sign, in the cosine's frame. Few
+// digits suffice: lights too small for them use the mean of their texture.
 vec3 seenDirection(Outline outline, AreaLobe lobe)
 {
     CutCorners cut;
@@ -80,19 +80,19 @@ vec3 seenDirection(Outline outline, AreaLobe lobe)
     return sum;
 }
 
-// The deviation of the Gaussian that is nearest to what a cosine sees of a plane straight ahead, in parts of its distance.
+// Deviation, relative to the distance, of the Gaussian that best fits a clamped cosine on a plane straight ahead.
 const float kCosineDeviation = 0.75;
-const float kMostStretch = 3.0; // of a Gaussian that several of a level stand for
+const float kMostStretch = 3.0; // largest stretch of a Gaussian that several taps of a level replace
 const int kStretchTaps = 5;
 
-// The mean direction meets the mean of the places weighted by 1 / distance^4. The light weights them by their height too,
-// which is linear: so its mean lies further by their covariance with the height, over the mean height. `variances` are
-// those of the surface's places, which count as far as a cosine sees: `turns` are the squares of how many radians a step
-// along either vector turns, and their mixed term. The variance of the height is at most that of heights spread evenly from
-// zero, a third of the squared mean; what the horizon cuts may have more.
+// Offset of the look-up by the cosine's height. The mean direction meets the mean position weighted by 1 / distance^4.
+// The light also weights positions by height, which is linear, and so moves the mean by their covariance with the
+// height over the mean height. `variances`: of the surface's positions, limited to the cosine's extent. `turns`:
+// squares of the radians that a step along either axis turns by, and their mixed term. The height's variance is at most
+// a third of the squared mean, as for heights spread evenly from zero; clipping at the horizon may exceed that.
 vec2 placeByHeight(vec2 variances, vec3 turns, vec2 slope, float meanHeight)
 {
-    // Where a step turns by more than 100 radians nearly nothing is left to move, and the determinant has no digits.
+    // If a step turns by more than 100 radians, nearly no offset is left, and the determinant has no digits.
     precise vec3 held = turns * (min(1.0, 1e4 / max(turns.x + turns.y, 1e-30)) / (kCosineDeviation * kCosineDeviation));
     precise vec2 ofAll = variances * slope, own = 1.0 + variances * held.xy, other = variances * held.z;
     precise float determinant = own.x * own.y - other.x * other.y;
@@ -102,14 +102,14 @@ vec2 placeByHeight(vec2 variances, vec3 turns, vec2 slope, float meanHeight)
     return further;
 }
 
-// The factor of a picture as a lobe sees it: around the mean of the directions it comes from, as wide as the cosine is
-// there. Across an outline that is seen aslant it is longer than wide.
+// Mean of a light texture over a lobe: around the mean direction of the light, as wide as the cosine is there, and
+// anisotropic for an outline seen at a grazing angle.
 vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
 {
     precise mat3 cosineFromLS = lobe.cosineFromSurface * lobe.surfaceFromLS;
     precise vec3 middle = cosineFromLS * outline.middle;
     precise vec3 right = cosineFromLS * outline.right, up = cosineFromLS * outline.up;
-    // Of what is small from afar single precision leaves no place, and it is seen nearly as its mean.
+    // For small, distant lights fp32 cannot resolve the position, and the result is nearly the mean.
     precise float across = sqrt(max(dot(right, right), dot(up, up)) / max(dot(middle, middle), 1e-30));
     precise float digits = clamp(100.0 * across - 1.0, 0.0, 1.0);
     if (!(digits > 0.0)) return lightPictureMean(picture);
@@ -119,17 +119,17 @@ vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
     precise float height = dot(middle, front);
     precise vec3 met = along != 0.0 ? direction * (height / along) : middle;
     precise float right2 = dot(right, right), up2 = dot(up, up), both = dot(right, up);
-    // Of a light that touches the point, all that is seen lies there.
+    // If the light touches the point, all of its light comes from there.
     precise float metres2 = dot(met, met);
     if (!(metres2 < 1e30)) return lightPictureMean(picture);
     precise float distance2 = max(metres2, 1e-12 * max(right2, up2));
-    // The place by the two vectors, which the lobe's matrix has sheared.
+    // Coordinates along the two axes, which the lobe's matrix has sheared.
     precise vec3 place = met - middle;
     precise float sheared = right2 * up2 - both * both;
     if (!(sheared > 0.0)) return lightPictureMean(picture);
     precise float inRight = dot(place, right), inUp = dot(place, up);
     precise vec2 within = vec2(inRight * up2 - inUp * both, inUp * right2 - inRight * both) / sheared;
-    // By how many radians a step along either vector turns: a quadratic form, and its axes.
+    // Squared radians by which a step along either axis turns the direction: a quadratic form, and its axes.
     precise float metRight = dot(met, right), metUp = dot(met, up);
     precise float turnRight = max(right2 - metRight * metRight / distance2, 0.0) / distance2;
     precise float turnUp = max(up2 - metUp * metUp / distance2, 0.0) / distance2;
@@ -139,18 +139,18 @@ vec3 pictureSeen(int picture, Outline outline, AreaLobe lobe)
     precise float mean = 0.5 * (turnRight + turnUp), lean = 0.5 * (turnRight - turnUp);
     precise float apart = sqrt(lean * lean + turnBoth * turnBoth);
     precise float most = max(mean + apart, 1e-30), least = max(mean - apart, 1e-30);
-    // In parts of the picture's sides, which are two of the vectors.
+    // Relative to the texture's sides, which are two axes long.
     precise float narrow = 0.5 * kCosineDeviation / sqrt(most);
-    precise float wide = min(0.5 * kCosineDeviation / sqrt(least), 1.0); // the last level is as wide as the picture
+    precise float wide = min(0.5 * kCosineDeviation / sqrt(least), 1.0); // the last level is as wide as the texture
     precise float level = min(max(narrow, wide / kMostStretch), 1.0);
     precise float beyond = sqrt(max(wide * wide - level * level, 0.0));
-    // Along the axis of the lesser turn.
+    // Along the principal axis of the smaller turn.
     precise vec2 slow = lean > 0.0 ? vec2(-turnBoth, lean + apart) : vec2(apart - lean, -turnBoth);
     precise float length2 = dot(slow, slow);
     precise vec2 axis = length2 > 0.0 ? slow / sqrt(length2) : vec2(1.0, 0.0);
     precise vec2 at = vec2(0.5 + 0.5 * within.x, 0.5 - 0.5 * within.y);
     precise vec2 stride = vec2(axis.x, -axis.y) * (0.75 * beyond);
-    // All of them lie within the picture, so that their mean stays where it is.
+    // Keeps all taps within the texture, so that their mean stays in place.
     precise vec2 room = min(at, 1.0 - at) / max(abs(stride) * float(kStretchTaps / 2), 1e-12);
     stride *= min(1.0, min(room.x, room.y));
     vec3 seen = lightPictureFiltered(picture, at, level);

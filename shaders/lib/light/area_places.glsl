@@ -1,9 +1,9 @@
-// Places all over a polygon.
+// Uniform sampling of polygons.
 #pragma once
 #include "lib/light/light_store.glsl"
 
 #if HAS_POLYGON_LIGHTS
-// In the triangle that a place of the unit square falls to by its column.
+// Maps a point of the unit square to the polygon; its column selects the triangle.
 vec2 polygonPlace(int light, vec2 place)
 {
     vec4 first = lightShapeTexel(light, LIGHT_SHAPE_TEXELS + 5), second = lightShapeTexel(light, LIGHT_SHAPE_TEXELS + 6);

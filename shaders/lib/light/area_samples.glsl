@@ -1,6 +1,6 @@
-// The light of areas on a surface by samples of each pixel: of the light's surface, of the cosine, of the lobe and of the
-// coat (docs/area-lights.md). Each counts by how densely all of them sample its direction (multiple importance sampling,
-// the balance heuristic), so that none is needed for the others to converge to the truth. Source: Veach and Guibas 1995,
+// Area lights by Monte Carlo sampling per pixel: of the light's surface, the cosine, the lobe and the coat
+// (docs/area-lights.md). Each sample is weighted by the densities of all of them in its direction (multiple importance
+// sampling, the balance heuristic), so that none is needed for the others to converge. Source: Veach and Guibas 1995,
 // "Optimally Combining Sampling Techniques for Monte Carlo Rendering".
 #pragma once
 #include "lib/light/area_places.glsl"
@@ -21,25 +21,25 @@ vec2 cornerOf(int light, int corner)
 #endif
 #include "lib/light/area_hits.glsl"
 
-// ---- A light as a point sees it -------------------------------------------------------------------------------------
+// ---- A light relative to a point ------------------------------------------------------------------------------------
 
-// Metres from the point, in lighting space.
+// An area light relative to the shaded point, in lighting space and metres.
 struct AreaSource {
     int light, type;
     bool isSeen, isTwoSided;
     vec3 middle;
-    vec3 front;     // unit; flat: normal on the surface's side; sphere: to its middle; tube: its axis
-    vec3 right, up; // of what is flat its vectors; of a sphere and a tube unit vectors across `front`, of a tube the
-                    // first to the point
-    float size;     // of what is flat its square metres; of a sphere 1 - cos of its angular radius; of a tube its radius
-    float height;   // of what is flat: how far the point is behind it
-    // Of a tube half its length, how far the point is from its axis, its foot along it, and the angle of the mantle that
-    // is seen, to either side.
+    vec3 front;     // unit; flat: normal on the surface's side; sphere: to its centre; tube: its axis
+    vec3 right, up; // flat: its axes; sphere, tube: unit vectors perpendicular to `front`, of a tube the first to the
+                    // point
+    float size;     // flat: area in square metres; sphere: 1 - cos of its angular radius; tube: radius
+    float height;   // flat: how far the point is behind it
+    // Tube: half length, distance of the point from its axis, the point's foot along the axis, and the half angle of
+    // the visible lateral surface.
     float halfMetres, away, foot, seenHalf;
-    float endSign; // of a tube the end that is seen; 0 where none is
+    float endSign; // tube: sign of the visible end; 0 if none is
 };
 
-// `normal` is that of the surface.
+// `normal`: shading normal of the surface.
 AreaSource areaSource(int index, int kind, vec3 middle, vec3 normal)
 {
     vec4 first = lightShapeTexel(index, 0), second = lightShapeTexel(index, 1);
@@ -73,7 +73,7 @@ AreaSource areaSource(int index, int kind, vec3 middle, vec3 normal)
         precise vec3 outwards = -middle - foot * axis;
         source.away = length(outwards);
         vec3 radial = safeNormalize(outwards, anyPerpendicular(axis));
-        precise vec3 across = radial - dot(radial, axis) * axis; // twice, since near the axis rounding alone is left
+        precise vec3 across = radial - dot(radial, axis) * axis; // twice, since near the axis only rounding is left
         source.right = dot(across, across) > 0.25 ? normalize(across) : anyPerpendicular(axis);
         source.up = cross(axis, source.right);
         source.endSign = foot > source.halfMetres ? 1.0 : foot < -source.halfMetres ? -1.0 : 0.0;
@@ -103,13 +103,13 @@ AreaSource areaSource(int index, int kind, vec3 middle, vec3 normal)
     return source;
 }
 
-// ---- Places on it ---------------------------------------------------------------------------------------------------
+// ---- Points on it ---------------------------------------------------------------------------------------------------
 
-// What is seen of a light in a direction.
+// Where a ray in a direction meets a light.
 struct SeenPlace {
     vec3 toLight;  // unit
-    float density; // with which a sample of the light's surface lies there, 1/sr; below 0 where nothing is seen
-    vec2 within;   // of what is flat, in parts of its vectors
+    float density; // of samples of the light's surface, 1/sr; below 0 if the light is not met
+    vec2 within;   // flat: coordinates along its axes
 };
 const SeenPlace kNothingSeen = SeenPlace(vec3(0.0), -1.0, vec2(0.0));
 
@@ -134,7 +134,7 @@ SeenPlace flatSample(AreaSource source, vec2 point)
 #endif
     precise vec3 to = source.middle + within.x * source.right + within.y * source.up;
     precise float distance = length(to);
-    // In its plane it is seen edge-on.
+    // From within its plane the light is seen edge-on.
     if (!(distance > 0.0 && source.height != 0.0)) return kNothingSeen;
     precise vec3 toLight = to / distance;
     return flatPlace(source, toLight, distance, within);
@@ -158,14 +158,14 @@ SeenPlace flatSeen(AreaSource source, vec3 toLight)
         isWithin = isWithinPolygon(within, source.light, int(lightShapeTexel(source.light, LIGHT_SHAPE_TEXELS).z));
 #endif
     if (!isWithin) return kNothingSeen;
-    // A point within its plane and outline lies on the side where the normal points, so that a light in the surface's own
-    // plane gives it nothing. No sample of the light finds what it sees.
+    // A point within the light's plane and outline counts as on the side where the normal points, so that a light in
+    // the surface's own plane does not light it. No sample of the light's surface finds such directions.
     if (source.height == 0.0) return facing < 0.0 ? SeenPlace(toLight, 0.0, within) : kNothingSeen;
     return flatPlace(source, toLight, distance, within);
 }
 
 #if HAS_SPHERE_LIGHTS
-// By solid angle.
+// Uniform in solid angle.
 SeenPlace sphereSample(AreaSource source, vec2 point)
 {
     precise float beside = point.x * source.size, angle = 2.0 * kPi * point.y;
@@ -186,14 +186,14 @@ SeenPlace sphereSeen(AreaSource source, vec3 toLight)
 #endif
 
 #if HAS_TUBE_LIGHTS
-// The mantle gets half of the samples where an end is seen too.
+// Fraction of samples on the lateral surface: half if an end is visible too.
 float mantleShare(AreaSource source)
 {
     return !(source.seenHalf > 0.0) ? 0.0 : source.endSign != 0.0 ? 0.5 : 1.0;
 }
 
-// Heights along a tube lie evenly by the angle under which its axis is seen: long and near ones need it. The tangent of
-// that angle, from the end that is farther from the foot.
+// Angle that a tube's axis subtends. Samples along the axis are uniform in this angle, measured from the end that is
+// farther from the foot: long and near tubes need it.
 float tubeAngle(AreaSource source)
 {
     float a = -source.halfMetres - source.foot, b = source.halfMetres - source.foot;
@@ -238,7 +238,7 @@ SeenPlace tubeSample(AreaSource source, vec2 point)
         precise vec3 out_ = cos(angle) * source.right + sin(angle) * source.up;
         normal = out_;
         float a = -source.halfMetres - source.foot, b = source.halfMetres - source.foot;
-        // From the farther end, whose sign keeps the divisor from cancelling.
+        // Measured from the farther end, whose sign keeps the divisor from cancelling.
         float end = abs(a) > abs(b) ? a : b;
         precise float turned = tan(point.y * tubeAngle(source)), slope = abs(end) / source.away;
         precise float back = turned >= 0.0 ? (abs(end) - source.away * turned) / (1.0 + slope * turned)
@@ -291,8 +291,8 @@ SeenPlace seenIn(AreaSource source, vec3 toLight)
 
 // ---- Surfaces -------------------------------------------------------------------------------------------------------
 
-// Point k of AREA_SAMPLES in the unit square: one in each of so many columns, rows a golden share apart, all shifted by
-// the same random numbers.
+// Point k of AREA_SAMPLES in the unit square: one per column, with rows spaced by the golden ratio, all shifted by the
+// same random numbers.
 vec2 stratifiedPoint(int k, vec2 random)
 {
     precise float column = (float(k) + random.x) * (1.0 / float(AREA_SAMPLES));
@@ -315,8 +315,8 @@ vec3 worthOf(SeenPlace place, AreaSource source, SeenSurface seen)
     return light;
 }
 
-// Radiance towards the viewer that a surface reflects of area light `index`; nothing is taken from its middle here, where
-// `toLightLS` points and `smallIrradiance` comes from.
+// Radiance towards the viewer from area light `index`, reflected by a surface. `toLightLS` and `smallIrradiance`, which
+// belong to the light's centre, are unused.
 vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, Viewpoint viewpoint, vec3 toLightLS, vec3 smallIrradiance)
 {
     vec4 place = lightTexel(index, 0);
@@ -325,7 +325,7 @@ vec3 areaLightOnSurface(int index, int kind, SeenSurface seen, Viewpoint viewpoi
     precise float window = 1.0 - reach * reach;
     AreaSource source = areaSource(index, kind, middle, seen.surface.normalLS);
     if (!source.isSeen) return vec3(0.0);
-    // Other numbers than those of shadows, so that the mean of their product is the product of the means.
+    // Independent of the random numbers of shadows, so that the mean of their product is the product of the means.
     vec2 random = unitOf(hashOf(uvec3(uvec2(viewpoint.pixel), uint(index) + 0x7f4a7c15u)).xy);
     vec3 normal = seen.surface.normalLS;
     vec3 tangent = sampledTangent(seen);

@@ -1,5 +1,5 @@
-// One light: reading it, and its irradiance at a point. The windows (range, cone) belong to the light and are the same
-// in every technique, also where nothing is culled.
+// Irradiance of one light at a point. The windows (range, cone) belong to the light and are the same in every
+// technique, with or without culling.
 #pragma once
 #include "lib/light/light_store.glsl"
 #include "shared/light_pictures.h"
@@ -8,13 +8,13 @@
 #endif
 #include "lib/maths/math.glsl"
 
-// Light as it arrives at a point.
+// Incident light at a point.
 struct Incident {
     vec3 toLightLS;  // unit
-    vec3 irradiance; // at normal incidence, L of the shading formulas; 0 where the light does not reach
+    vec3 irradiance; // at normal incidence, L of the shading formulas; 0 if the light does not reach the point
 };
 
-// ---- One function per type with a position: the share of its light sent in a direction; 0 is exactly none.
+// ---- One function per type with a position: the fraction of its light emitted in a direction; 0 is exactly none.
 
 #if HAS_SPOT_LIGHTS
 // The cone of KHR_lights_punctual, in the form of LightShapeTexels.
@@ -29,7 +29,7 @@ float spotShare(int kind, vec3 toLightLS, LightShapeTexels shape)
 #endif
 
 #if HAS_AREA_LIGHTS
-// In place of a share, square metres that an area light shows towards a direction: as a small source at its middle.
+// In place of a fraction: projected area of an area light in a direction, in m^2, as of a small source at its centre.
 float areaFacing(int type, vec3 toLightLS, LightShapeTexels shape)
 {
     if (type == LIGHT_SPHERE) {
@@ -55,7 +55,7 @@ float areaFacing(int type, vec3 toLightLS, LightShapeTexels shape)
 #endif
 
 #if HAS_LIGHT_SHAPES
-// By the light's type. A point light sends the same in every direction.
+// Emitted fraction by the light's type; 1 for a point light.
 float shareTowards(int index, int kind, vec3 toLightLS, vec4 attenuation)
 {
     int type = kind & LIGHT_TYPE_MASK;
@@ -69,9 +69,9 @@ float shareTowards(int index, int kind, vec3 toLightLS, vec4 attenuation)
 }
 #endif
 
-// ---- What a light gives: one without a position the same everywhere; one with a position by falloff, range and its type.
+// ---- Incident light: constant without a position, else by falloff, range and type.
 
-// The light that arrives at positionLS from light `index`. False where its range or type makes it exactly 0.
+// Incident light at positionLS from light `index`. False if its range or type makes it exactly 0.
 bool incidentLight(int index, vec3 positionLS, out Incident incident)
 {
     vec4 place = lightTexel(index, 0);
@@ -88,7 +88,7 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     precise float reach = distance2 * place.w;
     bool reaches = reach < 1.0;
     precise float window = 1.0 - reach * reach;
-    // At the light itself no direction is better than another; the least distance gives none, and no NaN.
+    // At the light itself the direction is undefined; the minimum distance yields a zero vector, and no NaN.
     precise float held2 = max(distance2, 1e-37);
     precise float inverse2 = 1.0 / held2;
     precise float falloff = (window * window) * min(inverse2, 1e4);
@@ -108,13 +108,13 @@ bool incidentLight(int index, vec3 positionLS, out Incident incident)
     float share = shareTowards(index, kind, direction, attenuation);
     bool shines = share > 0.0;
 #if HAS_AREA_LIGHTS
-    // In its plane a flat light that shines from both sides shows nothing of its middle and yet fills half of all
-    // directions where the point lies within it.
+    // From within its plane a two-sided flat light has no projected area, and yet fills half of all directions if it
+    // contains the point.
     if (IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK)) shines = shines || shinesFromBothSides(attenuation.w);
 #endif
     reaches = reaches && shines;
 #if HAS_AREA_LIGHTS
-    // Never more than a hemisphere of its radiance.
+    // At most the irradiance by a hemisphere of its radiance.
     if (IS_AREA_LIGHT(kind & LIGHT_TYPE_MASK)) {
         precise float seenShare = share / (held2 + share * kInversePi);
         share = 1.0;

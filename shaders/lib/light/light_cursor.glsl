@@ -1,7 +1,7 @@
-// Which lights a pixel visits, always in ascending index order, so that every technique adds the same terms in the same
-// order. LIGHT_CURSOR says how: ALL lights of the frame; the LIST of the pixel's cell, merged with the lights that reach
-// everywhere; the BITS that the pixel's tile and depth bin have in common (shared/light_lists.h); or NONE, where lights are
-// added by other passes.
+// Iterates over the lights of a pixel in ascending index order, so that every technique adds the same terms in the same
+// order. LIGHT_CURSOR: ALL lights of the frame; the LIST of the pixel's cell, merged with the unbounded lights; the
+// BITS that the masks of the pixel's tile and depth bin have in common (shared/light_lists.h); or NONE, if other passes
+// add the lights.
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "shared/light_lists.h"
@@ -30,7 +30,7 @@ layout(std430, binding = STORAGE_LIGHT_CELLS) readonly buffer LightCells
 };
 layout(binding = TEXTURE_UNIT_LIGHT_ENTRIES) uniform usamplerBuffer lightEntries;
 
-// A helper invocation may lie beyond the picture or in a depth slice that nothing occupies, where no list is.
+// A helper invocation may lie outside the image or in an unoccupied depth slice, where there is no list.
 #define WHERE_LISTED(index) (IS_HELPER ? 0u : (index))
 
 uint lightTileIndex(vec2 pixel)
@@ -43,7 +43,7 @@ uint lightTileIndex(vec2 pixel)
     return WHERE_LISTED(index);
 }
 
-// The entries of the pixel's tile, where every tile has one list.
+// Run of entries of the pixel's tile, with one list per tile.
 uvec2 runOfTile(vec2 pixel)
 {
     uint index = lightTileIndex(pixel);
@@ -103,7 +103,7 @@ bool nextBatch(inout LightCursor cursor, out int light)
 
 #elif LIGHT_CURSOR == LIGHT_CURSOR_LIST
 
-// The entries of the pixel's cell.
+// Run of entries of the pixel's cell.
 uvec2 lightRun(vec2 pixel, float depth)
 {
 #if ONE_LIST_A_TILE
@@ -111,7 +111,7 @@ uvec2 lightRun(vec2 pixel, float depth)
 #else
     uvec4 tile = lightTile(pixel);
     uint slice = depthSlice(depth, tile.y);
-    // The cells of a tile are those of its occupied slices, so a slice's rank among them finds its cell.
+    // A tile has cells for its occupied slices only, so a slice's rank among them is the index of its cell.
     uint below = slice < 32u ? tile.z & ((1u << slice) - 1u) : tile.z;
     uint belowHigh = slice < 32u ? 0u : tile.w & ((1u << (slice & 31u)) - 1u);
     return lightCells[WHERE_LISTED(tile.x + uint(bitCount(below) + bitCount(belowHigh)))];
@@ -120,7 +120,7 @@ uvec2 lightRun(vec2 pixel, float depth)
 
 #if HAS_LIGHTS_EVERYWHERE
 
-// A run of entries to be merged with another; the head is the light that it offers next.
+// A run of entries for merging; the head is its next light.
 const int kNoLight = 0x7fffffff;
 struct HeadedRun {
     int next;
@@ -150,10 +150,10 @@ LightCursor lightCursor(vec2 pixel, float depth)
     return LightCursor(headedRun(lightRun(pixel, depth)), headedRun(uvec2(0u, lighting.lights.z)));
 }
 
-// Without an early return: rasterisers that mask lanes run what follows one all the same, and keep both results.
+// Avoids an early return: rasterisers that mask lanes run the rest of the function anyway, and keep both results.
 bool nextLight(inout LightCursor cursor, out int light)
 {
-    // One fetch for the run whose head is next; no light is in both.
+    // Fetches once, for the run with the smaller head; no light is in both.
     bool isOfCell = cursor.cell.head < cursor.everywhere.head;
     HeadedRun run = cursor.everywhere;
     if (isOfCell) run = cursor.cell;
@@ -182,7 +182,7 @@ LightCursor lightCursor(vec2 pixel, float depth)
 
 bool nextLight(inout LightCursor cursor, out int light)
 {
-    light = int(texelFetch(lightEntries, cursor.next).x); // of no meaning at the end
+    light = int(texelFetch(lightEntries, cursor.next).x); // undefined at the end
     bool found = cursor.next < cursor.end;
     cursor.next += 1;
     return found;
@@ -203,7 +203,7 @@ struct LightCursor {
     int binWords;
     int word;
     int end;
-    uint bits; // not yet visited of the current word
+    uint bits; // unvisited lights of the current word
 };
 
 LightCursor lightCursor(vec2 pixel, float depth)
@@ -222,7 +222,7 @@ bool nextLight(inout LightCursor cursor, out int light)
     return found;
 }
 
-// Goes on to the next word if there is one and this one is empty.
+// Advances to the next word if there is one and this one is empty.
 void skipEmptyWord(inout LightCursor cursor)
 {
     if (cursor.bits != 0u || cursor.word >= cursor.end) return;
@@ -238,8 +238,8 @@ void leaveTwoEmptyWords(inout LightCursor cursor)
     skipEmptyWord(cursor);
 }
 
-// A batch is the lights of one 32-bit word of the mask. Where lights are so many that iterations are short, a step leaves
-// twice as many words as a round visits lights (renderer/frame/LightRounds.h).
+// A batch is the lights of one 32-bit word of the mask. If lights are so many that loop iterations are scarce, a step
+// skips up to twice as many empty words as a round visits lights (renderer/frame/LightRounds.h).
 bool nextBatch(inout LightCursor cursor, out int light)
 {
     do {

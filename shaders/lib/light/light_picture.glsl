@@ -1,6 +1,6 @@
-// Pictures of area lights: what a lobe sees of one, from levels filtered by Gaussians (shared/light_pictures.h). Source:
+// Light textures of area lights: look-ups averaged over a lobe, from Gaussian levels (shared/light_pictures.h). Source:
 // Heitz, Dupuy, Hill, Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", section 5,
-// with other Gaussians, and looked up near the mean of the light's places (area_picture.glsl).
+// with other Gaussians, and looked up near the light's mean position (area_picture.glsl).
 #pragma once
 #include "shared/slots.h"
 #include "shared/light_pictures.h"
@@ -12,20 +12,20 @@ vec3 lightPictureMean(int picture)
     return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS).rgb;
 }
 
-// Of the surface's places, along its two vectors.
+// Variances of surface positions along the light's two axes.
 vec2 lightPictureVariances(int picture)
 {
     return texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + LIGHT_PICTURE_VARIANCES).xy;
 }
 
-// As a + share (b - a), which is a where both are.
+// a + share (b - a) is exactly a if both are equal.
 vec3 mixedFactor(vec3 a, vec3 b, float share)
 {
     precise vec3 mixed = a + share * (b - a);
     return mixed;
 }
 
-// A level at a place: x from the left and y from the top, 0..1.
+// Bilinear look-up in a level; `place`: x from the left and y from the top, 0..1.
 vec3 lightPictureLevel(int picture, int level, vec2 place)
 {
     vec4 record = texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS + LIGHT_PICTURE_FIRST_LEVEL + level);
@@ -42,7 +42,7 @@ vec3 lightPictureLevel(int picture, int level, vec2 place)
     return mixedFactor(top, bottom, share.y);
 }
 
-// The picture filtered by a Gaussian of a deviation in parts of its sides.
+// Look-up filtered by a Gaussian; `deviation` is relative to the texture's sides.
 vec3 lightPictureFiltered(int picture, vec2 place, float deviation)
 {
     vec4 header = texelFetch(lightPictureTexels, picture * LIGHT_PICTURE_HEADER_TEXELS);

@@ -1,5 +1,5 @@
-// Where the texels of lights are read from: a buffer texture. A file included before may bring lightTexel() and
-// lightShapeTexel() of its own, and say so by HAS_OTHER_LIGHT_STORE.
+// Reads the texels of lights from a buffer texture. A file included before may define other functions lightTexel() and
+// lightShapeTexel(), together with HAS_OTHER_LIGHT_STORE.
 #pragma once
 #include "shared/slots.h"
 #include "shared/light.h"
@@ -27,7 +27,7 @@ vec4 lightTexel(int index, int texel)
 }
 
 #if HAS_LIGHT_SHAPES
-// The same in the order of LightShapeTexels and, behind them, LightCornerTexels.
+// A texel in the order of LightShapeTexels, followed by LightCornerTexels.
 vec4 lightShapeTexel(int index, int texel)
 {
     return texelFetch(lightTexels, index * TEXELS_A_LIGHT + LIGHT_TEXELS + texel);
@@ -44,7 +44,7 @@ vec4 lightShadowTexel(int index)
 #endif
 
 #if HAS_POLYGON_LIGHTS
-// A corner of a polygon, in parts of its reach.
+// A corner of a polygon, in coordinates along its axes.
 vec2 lightCorner(int index, int number)
 {
     vec4 two = lightShapeTexel(index, LIGHT_SHAPE_TEXELS + 1 + number / 2);

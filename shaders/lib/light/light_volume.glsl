@@ -1,11 +1,11 @@
-// The part of the picture that one light can change, as triangles: outside of it the light is exactly 0.
+// Light volumes: triangles over the part of the image that a light can change; outside of it the light is exactly 0.
 //
-// Every triangle is wound as a back face and lies at one depth, that of the farthest point the light reaches, so a test
-// that passes where the stored depth is nearer keeps the surfaces in front of it.
-//   sphere   a pyramid around its cone of view from the eye: an octagon around the visible circle, 1.055 times its area
+// Every triangle is wound as a back face and lies at one depth, that of the farthest point in the light's range, so a
+// depth test that passes where the stored depth is nearer keeps the surfaces in front of it.
+//   sphere   a pyramid from the eye: an octagon around the visible circle, 1.055 times its area
 //   cone     for cones up to 84 degrees: a hull around cone and spherical cap, 1.055 (narrow) to 1.39 (84 degrees)
-//            times their volume; of it the back faces are seen, also from inside
-//   screen   lights without position or range, spheres that the eye is in, and what is vast beside the picture of
+//            times their volume; its back faces are drawn, so that they are also visible from inside
+//   screen   lights without position or range, spheres that contain the eye, and lights far larger than the image of
 //            an orthographic camera
 #pragma once
 #include "lib/surface/camera.glsl"
@@ -16,9 +16,9 @@
 // Cones wider than this are drawn as their spheres.
 const float kWidestConeCosine = 0.1;
 
-// The margin in metres by which a volume is larger than its light, so that no rounding loses a pixel: the rounding of
-// positions and depths, and an eighth of a pixel (vertices snap to at least 1/16, OpenGL 4.5, table 23.65). At an
-// outline seen edge-on, snapping may turn a face over; there the light is 0 already, so that changes nothing.
+// Margin in metres by which a volume is larger than its light, so that rounding loses no pixel: the rounding of
+// positions and depths, and an eighth of a pixel (vertices snap to at least 1/16, OpenGL 4.5, table 23.65). At the
+// silhouette, snapping may flip a triangle; there the light is 0 already, so that changes nothing.
 float volumeMargin(vec3 positionLS, float reachMetres)
 {
     bool orthographic = view.forwardLS.w != 0.0;
@@ -27,7 +27,7 @@ float volumeMargin(vec3 positionLS, float reachMetres)
     return roundingMargin(length(positionLS) + reachMetres, view.depthKey) + 0.125 * pixel;
 }
 
-// The depth that would be stored at a distance ahead. Points behind the eye count as nearest.
+// Depth-buffer value at a distance ahead. Points behind the eye count as nearest.
 float depthAt(float ahead)
 {
     if (view.forwardLS.w == 0.0 && !(view.eyeLS.w + ahead > 0.0)) return 1.0;
@@ -39,7 +39,7 @@ vec3 perpendicularTo(vec3 direction)
     return normalize(cross(direction, abs(direction.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
 }
 
-// The place of a corner around an axis, counter-clockwise seen against it, so that the regular outline encloses the circle.
+// Offset of a corner around an axis, counter-clockwise seen against it; the regular outline encloses the circle.
 vec3 cornerAround(vec3 axis, int side, float radius)
 {
     const float kPiBySides = 3.14159265 / float(LIGHT_VOLUME_SIDES);
@@ -54,7 +54,7 @@ vec4 screenVertex(int vertex, float depth)
     return vec4(vertex == 2 ? 3.0 : -1.0, vertex == 1 ? 3.0 : -1.0, depth, 1.0);
 }
 
-// Clip-space position at a depth that the position does not decide.
+// Clip-space position with its depth replaced.
 vec4 vertexAtDepth(vec3 positionLS, float depth)
 {
     vec4 clip = view.clipFromLS * vec4(positionLS, 1.0);
@@ -69,7 +69,7 @@ vec4 sphereVertex(int vertex, vec3 centerLS, float radius)
     float distance = length(toCenter);
     // 0.999: close to the sphere the pyramid opens to a half space.
     if (!orthographic && !(radius < 0.999 * distance)) return screenVertex(vertex, depth);
-    // The circle where sight touches the sphere.
+    // The circle where the eye's rays touch the sphere.
     float sine = orthographic ? 0.0 : radius / distance;
     float cosine2 = 1.0 - sine * sine;
     vec3 sight = orthographic ? view.forwardLS.xyz : toCenter / distance;
@@ -79,9 +79,9 @@ vec4 sphereVertex(int vertex, vec3 centerLS, float radius)
 }
 
 #if HAS_CONE_LIGHTS
-// A hull of revolution around a cone of half-angle a and reach r, and everything within `margin` of it. Its profile has a
-// ring behind the apex, one where the cone's side meets the plane that touches the cap at a / 2, and one where that plane
-// meets the plane that touches the cap at its pole.
+// Vertex of a hull of revolution around a cone of half-angle a and range r, and everything within `margin` of it. Its
+// profile has a ring behind the apex, one where the cone's side meets the plane that touches the cap at a / 2, and one
+// where that plane meets the plane that touches the cap at its pole.
 vec4 coneVertex(int vertex, vec3 apexLS, vec3 axisLS, float cosOuter, float reachMetres, float margin)
 {
     int triangle = vertex / 3;
@@ -118,7 +118,7 @@ vec4 coneVertex(int vertex, vec3 apexLS, vec3 axisLS, float cosOuter, float reac
         radius = reach * sinHalf / (1.0 + cosHalf);
     }
 
-    // The farthest of the cap if it faces away from the eye, else of its rim, else the apex.
+    // The farthest point: on the cap if the view axis lies within the cone's angle, else on its rim, else the apex.
     float cosForward = dot(axisLS, view.forwardLS.xyz);
     float sinForward = sqrt(max(0.0, 1.0 - cosForward * cosForward));
     float share = cosForward >= cosOuter ? 1.0 : max(0.0, cosForward * cosOuter + sinForward * sinOuter);
@@ -127,8 +127,8 @@ vec4 coneVertex(int vertex, vec3 apexLS, vec3 axisLS, float cosOuter, float reac
 }
 #endif
 
-// Whether an outline of this size would have clip coordinates so large that its edge loses its place. Only under an
-// orthographic camera: a perspective one sees a vast sphere from within, or as a circle of ordinary size.
+// Whether an outline of this size would have clip coordinates so large that its edges are inaccurate. Only under an
+// orthographic camera: a perspective one is inside a vast sphere, or sees it as a circle of ordinary size.
 bool isVastInPicture(float reach)
 {
     float clipPerMetre = max(length(vec3(view.clipFromLS[0].x, view.clipFromLS[1].x, view.clipFromLS[2].x)),

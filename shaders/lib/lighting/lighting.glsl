@@ -1,12 +1,12 @@
-// Lighting, once for all techniques: the radiance that a surface reflects of one light, and the loop over lights. The
-// light cursor (lib/light/light_cursor.glsl) chooses the lights that a pixel visits.
+// Lighting for all techniques: the radiance that a surface reflects from one light, and the loop over lights. The light
+// cursor (lib/light/light_cursor.glsl) selects the lights that a pixel visits.
 #pragma once
 #include "lib/reflectance/reflectance.glsl"
 #include "lib/light/light.glsl"
 #include "lib/light/light_cursor.glsl"
 #include "lib/maths/cut_loop.glsl"
 #ifndef AREA_SAMPLES
-#define AREA_SAMPLES 0 // area lights are found in closed form, or there are none
+#define AREA_SAMPLES 0 // area lights, if any, use the closed form
 #endif
 #if HAS_AREA_LIGHTS
 #if AREA_SAMPLES > 0
@@ -15,7 +15,7 @@
 #include "lib/light/area_light.glsl"
 #endif
 #endif
-// Whether loops may take more iterations than Mesa lets them make, together with those that are nested in them.
+// Whether loops, with those nested in them, may exceed Mesa's iteration limit.
 #define MAY_CUT_LOOPS (HAS_SHADOWS || AREA_SAMPLES > 0)
 #if HAS_SHADOWS
 #include "lib/shadow/shadow.glsl"
@@ -29,18 +29,18 @@
 #endif
 #endif
 
-// 1 where lights are counted instead of added (lib/lighting/views.glsl).
+// 1 if lights are counted instead of added (lib/lighting/views.glsl).
 #ifndef VISIT_COUNTS
 #define VISIT_COUNTS 0
 #endif
 
-// Whether any light changes the surface.
+// Whether lights affect the surface.
 bool takesLight(Surface surface)
 {
     return !IS_UNLIT(surface.model);
 }
 
-// To be called with a surface before lights are added on it.
+// Prepares a surface for lighting; call before adding lights.
 void prepareForLights(SeenSurface seen)
 {
 #if HAS_AREA_LIGHTS && AREA_SAMPLES == 0
@@ -48,7 +48,7 @@ void prepareForLights(SeenSurface seen)
 #endif
 }
 
-// Radiance towards the viewer that the surface reflects of a light that reaches it, without shadows.
+// Radiance towards the viewer from a light that reaches the surface, without shadows.
 vec3 reflectedLight(int light, SeenSurface seen, Viewpoint viewpoint, Incident incident)
 {
 #if HAS_AREA_LIGHTS
@@ -60,12 +60,11 @@ vec3 reflectedLight(int light, SeenSurface seen, Viewpoint viewpoint, Incident i
     return reflected;
 }
 
-// Adds the radiance towards the viewer that a lit surface reflects of one light; where visits are counted, 1. Every
-// pass that adds light calls this function; only the debug views of D, G and F read a light directly. Shadows are asked
-// for here. It adds instead of returning: a rasteriser that masks lanes would choose between the result and 0 before it
-// adds (5 % of the time of 1,024 lights). It also runs the code of shadows for all lights, so callers say where none
-// can be `shadowed`. What of the radiance has passed through the surface's body is added to `passed` too, where
-// IN_ATLAS.
+// Adds the shadowed radiance towards the viewer that a lit surface reflects from one light; or 1 if visits are counted.
+// Every pass that adds light calls this function; only the debug views of D, G and F read a light directly. It adds
+// instead of returning: a rasteriser that masks lanes would choose between the result and 0 before it adds (5 % of the
+// time of 1,024 lights). Such rasterisers also run the code of shadows for all lights, so callers state whether any can
+// be `shadowed`. IN_ATLAS also adds the part of the radiance transmitted through the surface's body to `passed`.
 void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoint viewpoint, inout vec3 radiance,
                        inout vec3 passed)
 {
@@ -76,7 +75,7 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
     if (incidentLight(light, viewpoint.positionLS, incident)) {
         precise vec3 unshadowed = reflectedLight(light, seen, viewpoint, incident);
 #if HAS_SHADOWS
-        // A shadow costs far more than what it would hide.
+        // Computes no shadow of black light: a shadow costs far more than the light.
         if (shadowed && unshadowed != vec3(0.0)) unshadowed *= shadowFactor(light, seen.surface, viewpoint);
 #if HAS_SUBSURFACE_PASSAGE
         if (shadowed) {
@@ -99,14 +98,14 @@ void addLightOnSurface(int light, const bool shadowed, SeenSurface seen, Viewpoi
 }
 
 #if HAS_SHADOWS
-// Lights that casters may hide come first (renderer/frame/PackedLights.h): so many.
+// Number of shadow-casting lights, which come first (renderer/frame/PackedLights.h).
 int shadowedLights()
 {
     return int(lighting.slices.y);
 }
 #endif
 
-// Adds every light that the surface's cursor visits, in ascending order; `passed` as addLightOnSurface() has it.
+// Adds every light that the pixel's cursor visits, in ascending order; `passed` as in addLightOnSurface().
 vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pixel, inout vec3 passed)
 {
     precise vec3 radiance = before;
@@ -116,9 +115,9 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
     if (!nextLight(cursor, light) && !nextBatch(cursor, light)) return radiance;
-    // Tested at the end: rasterisers that mask lanes instead of branching would run a loop's body once more than its
-    // lights. LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is spelt out: an inner loop would count towards the same
-    // limit.
+    // Tests at the end: rasterisers that mask lanes instead of branching would run the body once more than there are
+    // lights. LIGHTS_PER_ROUND (renderer/frame/LightRounds.h) is unrolled by hand: an inner loop would count towards
+    // the same iteration limit.
 #define ADD_LIGHT addLightOnSurface(light, false, seen, viewpoint, radiance, passed);
 #define ADD_NEXT_LIGHT if (nextLight(cursor, light)) ADD_LIGHT
     bool more = true;
@@ -147,20 +146,21 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
             more = nextLight(cursor, light);
         } while (more);
 #if MAY_CUT_LOOPS
-        if (more) break; // the inner loop was ended
+        if (more) break; // the inner loop was truncated
 #endif
         more = nextBatch(cursor, light);
     } while (more);
 #if MAY_CUT_LOOPS
-    // Walks through casters and samples count towards the iterations after which Mesa ends loops (lib/shadow/caster_walk.glsl).
+    // Shadow rays and samples count towards the iterations after which Mesa truncates loops
+    // (lib/shadow/caster_walk.glsl).
     if (more) radiance = vec3(CUT_LOOP);
 #endif
 #endif
     return radiance;
 }
 
-// Radiance of the surface towards the viewer: its emission, the environment and its lights; `passed` as
-// addLightOnSurface() has it.
+// Radiance of the surface towards the viewer: its emission, the environment and its lights; `passed` as in
+// addLightOnSurface().
 vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel, inout vec3 passed)
 {
     SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);

@@ -1,6 +1,6 @@
-// What a ray meets of the opaque surfaces that a picture holds: it is followed over the screen, against their depths, to
-// where it goes behind one (docs/glass.md). Source: McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing": over
-// the screen a ray is straight, and its depth-buffer values grow evenly along it, as those of planes do.
+// Intersects rays with the opaque surfaces of an image: a ray is marched in screen space, against their depths, to
+// where it goes behind a surface (docs/glass.md). Source: McGuire and Mara 2014, "Efficient GPU Screen-Space Ray
+// Tracing": in screen space a ray is straight, and its depth-buffer value is linear along it, as on planes.
 #pragma once
 #include "shared/refraction.h"
 #include "lib/raster/depth_step.glsl"
@@ -17,17 +17,17 @@ layout(binding = TEXTURE_UNIT_BEHIND_DEPTH) uniform sampler2D behindDepth;
 layout(binding = TEXTURE_UNIT_FAR_SIDES) uniform sampler2D farSides; // xyz normal, w depth
 #endif
 
-// What rays are followed against.
+// Layers of depths that rays are marched against.
 const int kOpaqueLayer = 0;
 const int kFarLayer = 1; // the back faces of bodies
 
-// How far a surface may lie before the ray at the place where the ray goes behind it: in pixels, and in steps of the
-// surface's own depth from that pixel to the next. Farther, and the ray passes behind its edge.
+// Tolerance of a hit: how far a surface may lie in front of the ray where the ray goes behind it, in pixels, and in
+// steps of the surface's depth from that pixel to the next. Beyond that, the ray passes behind the surface's edge.
 const float kBehindPixels = 4.0;
 const float kBehindSlopes = 2.0;
 
-// Shares of a pixel that texels are interpolated by. A ray that nothing bends ends in the middle of its pixel up to
-// rounding, and then shows that texel alone.
+// Steps of the interpolation weights within a pixel. An unbent ray ends in the centre of its pixel up to rounding, and
+// then shows that texel alone.
 const float kBehindShares = 256.0;
 
 ivec2 pixelBehind(vec2 place)
@@ -35,7 +35,7 @@ ivec2 pixelBehind(vec2 place)
     return clamp(ivec2(floor(place)), ivec2(0), ivec2(view.sizePixels.xy) - 1);
 }
 
-// As stored, 0 where nothing is.
+// Stored depth; 0 where nothing is.
 float depthBehind(int layer, ivec2 pixel)
 {
     pixel = clamp(pixel, ivec2(0), ivec2(view.sizePixels.xy) - 1);
@@ -57,29 +57,29 @@ float aheadOf(float depth)
     return ahead;
 }
 
-// Whether a place on the screen, with its depth as z, lies behind what is drawn there.
+// Whether a screen position, with its depth as z, lies behind what is drawn there.
 bool isBehind(int layer, vec3 place)
 {
     float depth = depthBehind(layer, pixelBehind(place.xy));
     return depth > 0.0 && place.z < depth;
 }
 
-// A ray over the screen: places in pixels with their depth, evenly from begin to begin + way. None where it begins beside the
-// view. One that begins beyond its far end stays there.
+// A screen-space ray: positions in pixels and their depths, linear from begin to begin + way. isSeen: false if it
+// begins outside the view. A ray that begins beyond the far plane has length 0.
 struct ScreenRay {
     vec3 begin;
     vec3 way;
     bool isSeen;
 };
 
-// Of points (1 - u) from + u towards the share u up to which a plane of the view is not crossed, by the distances of both.
+// Clips the points (1 - u) from + u towards, u up to `share`, at a plane of the view, by the distances of both from it.
 float shareInside(float from, float towards, float share)
 {
     precise float crossing = from / (from - towards);
     return share > 0.0 && towards < 0.0 ? min(share, crossing) : share;
 }
 
-// To a point in homogeneous coordinates, which may be one at infinity.
+// Ray to a point in homogeneous coordinates, which may be at infinity.
 ScreenRay screenRayTo(vec3 originLS, vec4 endLS)
 {
     precise vec4 from = view.clipFromLS * vec4(originLS, 1.0);
@@ -113,17 +113,17 @@ ScreenRay screenRay(vec3 originLS, vec3 directionLS)
     return screenRayTo(originLS, vec4(directionLS, 0.0));
 }
 
-// Whether the surface of the pixel in which a ray is found behind it is met there, and not passed behind its edge.
+// Whether a ray that goes behind a pixel's surface hits it there, instead of passing behind its edge.
 bool isMet(int layer, ScreenRay ray, vec3 before, vec3 after)
 {
     ivec2 pixel = pixelBehind(after.xy);
-    if (pixelBehind(before.xy) == pixel) return true; // it goes through the depth of one pixel
+    if (pixelBehind(before.xy) == pixel) return true; // it crosses the depth of one pixel
     float depth = depthBehind(layer, pixel), ahead = aheadOf(depth);
     precise float gap = aheadOf(max(after.z, 0.0)) - ahead;
     bool isWide = abs(ray.way.x) >= abs(ray.way.y);
     ivec2 next = isWide ? ivec2(ray.way.x < 0.0 ? -1 : 1, 0) : ivec2(0, ray.way.y < 0.0 ? -1 : 1);
-    // A surface that goes on leans the same way on both sides; a thing that is a pixel wide does not. At an edge one step
-    // leads off the surface.
+    // A continuous surface slopes the same way on both sides; an object that is one pixel wide does not. At an edge one
+    // step leaves the surface.
     float nextDepth = depthBehind(layer, pixel + next), lastDepth = depthBehind(layer, pixel - next);
     bool goesOn = nextDepth > 0.0 && (nextDepth > depth) == (depth > lastDepth);
     precise float slope = goesOn ? abs(stepOnSurface(aheadOf(lastDepth), ahead, aheadOf(nextDepth))) : 0.0;
@@ -132,27 +132,27 @@ bool isMet(int layer, ScreenRay ray, vec3 before, vec3 after)
     return gap <= kBehindPixels * pixelMetres + kBehindSlopes * slope;
 }
 
-// Along an axis, on a pixel's own surface.
+// Depth change along an axis, on a pixel's surface.
 float depthStep(int layer, ivec2 pixel, ivec2 axis, float depth)
 {
     return stepOnSurface(depthBehind(layer, pixel - axis), depth, depthBehind(layer, pixel + axis));
 }
 
-// By pixel, how a surface's depth changes to the right and up.
+// Change of a surface's depth per pixel, to the right and up.
 vec2 slopeBehind(int layer, ivec2 pixel, float depth)
 {
     return vec2(depthStep(layer, pixel, ivec2(1, 0), depth), depthStep(layer, pixel, ivec2(0, 1), depth));
 }
 
-// Whether a ray enters the plane of the surface that a pixel shows. Where a body stands on a surface at a grazing angle,
-// a ray that leaves the plane is also found behind the centre of a pixel.
+// Whether a ray enters the plane of a pixel's surface. Where a body stands on a surface at a grazing angle, a ray that
+// leaves the plane may also be behind the centre of a pixel.
 bool leadsInto(int layer, ScreenRay ray, ivec2 pixel)
 {
     precise float rate = ray.way.z - dot(slopeBehind(layer, pixel, depthBehind(layer, pixel)), ray.way.xy);
     return rate < 0.0;
 }
 
-// Where a ray meets the plane of the surface that the pixel of `after` shows; `after` itself where that lies elsewhere.
+// Intersection of a ray with the plane of the surface in the pixel of `after`; `after` itself if it lies elsewhere.
 vec3 placeMet(int layer, ScreenRay ray, vec3 after)
 {
     ivec2 pixel = pixelBehind(after.xy);
@@ -168,14 +168,14 @@ vec3 placeMet(int layer, ScreenRay ray, vec3 after)
     return max(aside.x, aside.y) <= 1.0 && met.z > 0.0 ? met : after;
 }
 
-// Where a ray over the screen meets a surface of a layer, and the pixel that shows it.
+// Hit of a screen-space ray on a surface of a layer, and the pixel of that surface.
 struct ScreenHit {
     vec3 place;
     ivec2 pixel;
     bool isMet;
 };
 
-// `bodyDepth` is that of the near side of the body that the ray comes from.
+// `bodyDepth`: depth of the near side of the body that the ray comes from.
 ScreenHit screenHit(int layer, ScreenRay ray, float bodyDepth)
 {
     ScreenHit hit = ScreenHit(ray.begin, pixelBehind(ray.begin.xy), false);
@@ -183,8 +183,8 @@ ScreenHit screenHit(int layer, ScreenRay ray, float bodyDepth)
     bool wasBehind = isBehind(layer, ray.begin);
     precise float pixels = max(abs(ray.way.x), abs(ray.way.y));
     int steps = int(clamp(ceil(pixels), 1.0, float(REFRACTION_STEPS)));
-    // A body that is thicker than the room before a surface ends there, but a ray that leads out at once, reflected where the
-    // body stands on that surface, leaves it. What is nearer than the body's near side, a ray passes behind.
+    // A body thicker than its distance to an opaque surface ends there: a ray that begins behind the surface hits it,
+    // unless it comes out at once, reflected where the body stands on it. Surfaces nearer than the body are not hit.
     hit.isMet = layer == kOpaqueLayer && wasBehind && depthBehind(layer, hit.pixel) <= bodyDepth
                 && isBehind(layer, ray.begin + ray.way / float(steps)) && leadsInto(layer, ray, hit.pixel);
     for (int i = 1; i <= steps && !hit.isMet; ++i) {
@@ -213,15 +213,15 @@ ScreenHit screenHit(int layer, ScreenRay ray, float bodyDepth)
 }
 
 #if HAS_SCENE_BEHIND
-// The picture around a place, interpolated between texels that do not lie before both the place and the body, whose near
-// side has a depth of `bodyDepth`.
+// Image at a position, interpolated between texels that are not in front of both the position and the near side of the
+// body, at `bodyDepth`.
 vec4 sharpBehind(vec3 place, float bodyDepth)
 {
     precise vec2 corner = place.xy - 0.5;
     precise vec2 snapped = floor(corner * kBehindShares + 0.5) / kBehindShares;
     ivec2 low = ivec2(floor(snapped));
     precise vec2 share = snapped - vec2(low);
-    // A surface that leans to the viewer is nearer at the next pixel.
+    // A surface that slopes towards the viewer is nearer at the next pixel.
     precise float nearest = 1.001 * max(bodyDepth, place.z);
     precise vec4 sum = vec4(0.0);
     precise float weights = 0.0;
@@ -239,7 +239,7 @@ vec4 sharpBehind(vec3 place, float bodyDepth)
 }
 
 #if HAS_BLURRED_SCENE_BEHIND
-// A level of the picture around a place, interpolated.
+// A level of the image at a position, interpolated.
 vec4 levelBehind(vec2 place, int level)
 {
     ivec2 size = ivec2(view.sizePixels.xy);
@@ -260,7 +260,7 @@ vec4 levelBehind(vec2 place, int level)
     return mean;
 }
 
-// The mean of the image over a square around a place, interpolated between levels.
+// Mean of the image over a square around a position, interpolated between levels.
 vec4 meanBehind(vec2 place, float widthPixels)
 {
     precise float level = clamp(0.5 * log2(1.0 + widthPixels * widthPixels), 0.0, float(BEHIND_COARSEST));
@@ -270,10 +270,10 @@ vec4 meanBehind(vec2 place, float widthPixels)
     return mean;
 }
 
-// The image around a place, blurred by the lobe of a rough body. Half of a GGX lobe lies within a slope of alpha of its
-// half vectors, which turns light by twice that angle: a disk of radius 2 alpha l at the distance l. One square has no
-// tails, so the lobe is the sum of a narrow and a wide one, fitted to Walter's integral (docs/glass.md). Lobes narrower
-// than a pixel still blur a little.
+// The image around a position, blurred by the lobe of a rough body. Half of a GGX lobe lies within a slope of alpha of
+// its half vectors, which turns light by twice that angle: a disk of radius 2 alpha l at the distance l. One square has
+// no tails, so the lobe is the sum of a narrow and a wide one, fitted to Walter's integral (docs/glass.md). Lobes
+// narrower than a pixel still blur a little.
 vec4 blurredBehind(vec3 place, float alpha, vec3 originLS)
 {
     vec3 metLS = viewpointFromDepth(place.xy, place.z).positionLS;
@@ -286,8 +286,8 @@ vec4 blurredBehind(vec3 place, float alpha, vec3 originLS)
 }
 #endif
 
-// What a ray from a body meets: rgb of surfaces, times a, the share of it that they cover; 0 where it leaves the screen or
-// meets none. `bodyDepth` is that of the body's near side. Light spreads around the ray by a GGX lobe of `alpha`.
+// Surfaces hit by a ray from a body: rgb radiance times a, the covered fraction; 0 if it leaves the screen or hits
+// none. `bodyDepth`: depth of the body's near side. The result is blurred around the ray by a GGX lobe of `alpha`.
 vec4 sceneBehind(vec3 originLS, vec3 directionLS, float bodyDepth, float alpha)
 {
     ScreenHit hit = screenHit(kOpaqueLayer, screenRay(originLS, directionLS), bodyDepth);

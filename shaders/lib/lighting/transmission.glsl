@@ -1,4 +1,4 @@
-// Light that passes through a surface towards the viewer (docs/glass.md). Source: KHR_materials_transmission, _volume and
+// Light transmitted through a surface to the viewer (docs/glass.md). Source: KHR_materials_transmission, _volume,
 // _dispersion.
 #pragma once
 #include "lib/lighting/lighting.glsl"
@@ -14,8 +14,8 @@
 #include "lib/maths/random.glsl"
 #endif
 
-// What the surface's lobe reflects of even light: a mirror by Fresnel's factor, a rough one by the table. Nothing where
-// the shading normal points away from the viewer, so that all of it passes.
+// Reflectance of the surface's lobe under uniform illumination: Fresnel's factor for a mirror, the table for a rough
+// lobe. 0 if the shading normal points away from the viewer, so that all light is transmitted.
 vec3 reflectedEvenly(SeenSurface seen)
 {
     if (!(seen.nv > 0.0)) return vec3(0.0);
@@ -31,7 +31,7 @@ vec3 reflectedEvenly(SeenSurface seen)
 #endif
 }
 
-// By channel, of a radiance from behind: what the surface and its layers do not reflect, tinted.
+// Transmitted fraction of radiance from behind, by channel: what surface and layers do not reflect, tinted.
 vec3 passedShare(SeenSurface seen)
 {
     precise vec3 share = seen.surface.passing * max(vec3(1.0) - reflectedEvenly(seen), vec3(0.0));
@@ -44,12 +44,12 @@ vec3 passedShare(SeenSurface seen)
     return share;
 }
 
-// Whether bodies show anything but what lies straight behind them. Sheets do where they scatter, of what lies there.
+// Whether bodies show anything but what lies straight behind them. Scattering sheets blur what lies straight behind.
 #define BODIES_BEND (HAS_VOLUME && (HAS_ENVIRONMENT || HAS_SCENE_BEHIND))
 
 #if BODIES_BEND || HAS_SCATTERING_SHEETS
 #if HAS_ENVIRONMENT
-// The environment around a direction, as its filtered map averages it: by a GGX lobe seen from its own axis, weighted by
+// The environment around a direction, averaged as in its filtered map: over a GGX lobe seen along its axis, weighted by
 // the cosine.
 vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
 {
@@ -73,12 +73,12 @@ vec3 surroundingsAlong(vec3 direction, float alpha, vec2 pixel)
 }
 #endif
 
-// Where a ray goes on behind the surface, and along which direction.
+// The continuation of a ray behind the surface.
 struct BentRay {
     vec3 originLS;
     vec3 directionLS;   // unit
-    float insideMetres; // through the body to a back face; below 0 where none is met, and the body's thickness counts
-    float alpha;        // of the GGX lobe that light is spread by around it; ALPHA_MIN: not at all
+    float insideMetres; // through the body to a back face; below 0 if none is hit, and the body's thickness applies
+    float alpha;        // of the GGX lobe that blurs around the ray; ALPHA_MIN: none
 };
 
 // Alpha of the lobe around a transmitted ray, from the deflections by the surface's microfacets.
@@ -87,8 +87,7 @@ float spreadOf(Surface surface, vec2 turns)
     return surface.passingAlpha > ALPHA_MIN ? passingAlpha(surface.passingAlpha, turns, ALPHA_MIN) : ALPHA_MIN;
 }
 
-// The same through two parallel sides: the far one transmits the deflection by the near one
-// and adds an equal one.
+// The same through two parallel sides: the far one transmits the deflection by the near one and adds an equal one.
 float spreadOfSides(Surface surface, float ior, float cosOutside, float cosInside)
 {
     if (!(ior > 0.0)) return spreadOf(surface, vec2(1.0));
@@ -96,8 +95,8 @@ float spreadOfSides(Surface surface, float ior, float cosOutside, float cosInsid
     return spreadOf(surface, vec2(turnsTogether(turns.x, turns.x), turnsTogether(turns.y, turns.y)));
 }
 
-// What a ray shows, of which `kept` comes through, by channel: surfaces that the picture holds, and beyond them the
-// environment, or the background where none lights the scene.
+// Radiance along a ray times the transmittance `kept`, by channel: surfaces in the image, and beyond them the
+// environment, or the background if none lights the scene.
 vec3 lightAlong(BentRay ray, vec3 kept, Viewpoint viewpoint, vec2 pixel)
 {
 #if HAS_SCENE_BEHIND
@@ -121,9 +120,9 @@ vec3 lightAlong(BentRay ray, vec3 kept, Viewpoint viewpoint, vec2 pixel)
 #endif
 
 #if BODIES_BEND
-// Along which the light came that leaves towards the viewer, bent once, by Snell's law; 0 where the surface lets none
-// out. An index of 0 is one without bound, which bends all light onto the normal. Source: KHR_materials_ior; GLSL 4.50,
-// refract(), which does not say how it rounds.
+// The viewer's ray, refracted at the surface by Snell's law; 0 at total internal reflection. An ior of 0 means infinite
+// and bends all light onto the normal. Source: KHR_materials_ior; GLSL 4.50, refract(), which does not specify its
+// rounding.
 vec3 refractedDirection(vec3 normal, vec3 toViewer, float ior)
 {
     precise float along = dot(normal, toViewer);
@@ -137,8 +136,8 @@ vec3 refractedDirection(vec3 normal, vec3 toViewer, float ior)
 }
 
 #if HAS_DISPERSION
-// The index of refraction of red, green and blue: that of the material is green's, and none falls below 1 from above it.
-// An index of 0, which has no bound, has no spread. Source: KHR_materials_dispersion.
+// Indices of refraction of red, green and blue: green has the material's, and red does not fall below 1 if that is
+// above 1. An ior of 0 (infinite) has no dispersion. Source: KHR_materials_dispersion.
 vec3 iorByChannel(float ior)
 {
     precise float spread = max(ior - 1.0, 0.0) * material.attenuation.a;
@@ -149,7 +148,7 @@ vec3 iorByChannel(float ior)
 #endif
 
 #if HAS_BACK_FACES
-// The normal of a far side at a place on the screen, interpolated between pixels that show any; `other` where none does.
+// Normal of a far side at a screen position, interpolated between pixels that have one; `other` if none does.
 vec3 farSideNormal(vec2 place, vec3 other)
 {
     precise vec2 corner = place - 0.5;
@@ -165,8 +164,8 @@ vec3 farSideNormal(vec2 place, vec3 other)
     return safeNormalize(sum, other);
 }
 
-// Of a ray inside a body that meets its far side, by Snell's law; where all is reflected there, the reflected one, which
-// then leaves unbent.
+// Direction of a ray after it meets the far side of a body from inside, by Snell's law; at total internal reflection
+// the reflected direction, which then leaves unbent.
 vec3 leavingDirection(vec3 bent, vec3 outward, float ior)
 {
     precise float cosine = dot(outward, bent);
@@ -174,21 +173,21 @@ vec3 leavingDirection(vec3 bent, vec3 outward, float ior)
     precise float sine2 = ior * ior * dot(across, across);
     precise vec3 reflected = bent - 2.0 * cosine * outward;
     precise vec3 refracted = ior * across + sqrt(max(1.0 - sine2, 0.0)) * outward;
-    // An index of 0 is one without bound.
+    // An ior of 0 means infinite.
     bool isReflected = !(sine2 <= 1.0) || (ior <= 0.0 && across != vec3(0.0));
     return safeNormalize(isReflected ? reflected : refracted, bent);
 }
 #endif
 
 #if HAS_BACK_FACES
-// A far side around the place where a ray meets it.
+// Tangent plane of a far side where a ray meets it.
 struct FarSide {
     vec3 positionLS;
     vec3 outwardLS; // unit
 };
 
-// Which way a ray leaves that comes a little aside of the one that meets a far side: the normal there is that of the
-// pixel in which the plane of the far side shows the place.
+// Exit direction of a ray beside the one that meets `side`: its normal is read at the pixel of its intersection with
+// the far side's tangent plane.
 vec3 leavingBeside(FarSide side, vec3 originLS, vec3 bent, float ior)
 {
     precise float toPlane = dot(side.positionLS - originLS, side.outwardLS);
@@ -200,8 +199,8 @@ vec3 leavingBeside(FarSide side, vec3 originLS, vec3 bent, float ior)
     return leavingDirection(bent, dot(normal, bent) < 0.0 ? -normal : normal, ior);
 }
 
-// By how much facets of both sides turn a ray that leaves a body: the lobe of the near side as the far one carries it on,
-// which a round one gathers or scatters, by rays through its edges; and that of the far side itself.
+// Alpha of the lobe around a ray that leaves a body, by the microfacets of both sides: the near side's lobe as the far
+// side focuses or scatters it, by rays through the lobe's edges, and the far side's lobe.
 float spreadThrough(Surface surface, Viewpoint viewpoint, vec3 bent, FarSide side, vec3 leaving, float ior, vec2 entering)
 {
     if (!(surface.passingAlpha > ALPHA_MIN)) return ALPHA_MIN;
@@ -222,14 +221,14 @@ float spreadThrough(Surface surface, Viewpoint viewpoint, vec3 bent, FarSide sid
 }
 #endif
 
-// How it goes on: through a far side that lies along the near one, where it bends back, as the ray of the viewer, moved aside,
-// unless it meets a surface before; or through the far side that is drawn where it meets any; else as it was bent.
+// Continues a bent ray. A far side parallel to the near one bends it back into the viewer's direction, displaced,
+// unless it hits a surface before. A drawn far side bends it where the ray meets that. Else it goes on as it is.
 BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent, float ior)
 {
     precise float cosOutside = abs(dot(viewpoint.toViewerLS, surface.normalLS)), cosInside = abs(dot(bent, surface.normalLS));
     vec2 entering = turnsOfEntering(ior, cosOutside, cosInside);
 #if HAS_PARALLEL_SIDES
-    // Beyond the critical angle of an index below 1 rays run along the surface, without end.
+    // With an index below 1, rays beyond the critical angle run along the surface without end.
     precise float cosine = max(cosInside, 1e-3);
     precise vec3 farSide = viewpoint.positionLS + (surface.bodyMetres / cosine) * bent;
 #if HAS_SCENE_BEHIND
@@ -252,7 +251,7 @@ BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent, float io
         FarSide side = FarSide(viewpointFromDepth(hit.place.xy, hit.place.z).positionLS, dot(normal, bent) < 0.0 ? -normal : normal);
         precise float insideMetres = length(side.positionLS - viewpoint.positionLS);
         vec3 leaving = leavingDirection(bent, side.outwardLS, ior);
-        // A reflected ray goes on inside, in all as far as the body is thick.
+        // A reflected ray continues inside, in total at least as far as through the body's thickness.
         precise float throughMetres = surface.bodyMetres / max(cosInside, 1e-3);
         if (dot(leaving, side.outwardLS) < 0.0) insideMetres = max(insideMetres, throughMetres);
         float alpha = spreadThrough(surface, viewpoint, bent, side, leaving, ior, entering);
@@ -263,8 +262,8 @@ BentRay rayThroughBody(Surface surface, Viewpoint viewpoint, vec3 bent, float io
 #endif
 }
 
-// What a body shows of light that it bends by an index of refraction, of which its surface keeps `share`, by channel.
-// Black where all is reflected.
+// Light through a body that bends it by one index of refraction; `share`: transmitted fraction of the surface, by
+// channel. Black at total internal reflection.
 vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, float ior, vec2 pixel)
 {
     vec3 bent = refractedDirection(surface.normalLS, viewpoint.toViewerLS, ior);
@@ -278,7 +277,7 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, float io
     return lightAlong(ray, kept, viewpoint, pixel);
 }
 
-// The same of a body whose colours may bend apart. One loop, so that a program holds the way of a ray once.
+// The same with dispersion. A single loop, so that a program contains the path of a ray once.
 vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, vec2 pixel)
 {
 #if HAS_DISPERSION
@@ -298,7 +297,8 @@ vec3 lightThroughBody(Surface surface, Viewpoint viewpoint, vec3 share, vec2 pix
 }
 #endif
 
-// What comes through a surface: radiance of its own, and what it keeps of the radiance behind it, by channel.
+// Light through a surface: radiance from refracted or blurred rays, and the fraction of the radiance behind it that is
+// transmitted, by channel.
 struct ThroughSurface {
     vec3 radiance;
     vec3 kept;

@@ -1,5 +1,5 @@
-// What a pixel shows: the lit surface, or one of the debug views of the table kViews (renderer/frame/DebugViews.h), which gives
-// VIEW its number. Both families of techniques end here, so a view exists in each of them.
+// Output of a pixel: the shaded surface, or a debug view of the table kViews (renderer/frame/DebugViews.cpp), whose
+// number is VIEW. Forward and deferred both end here, so every view exists in both.
 #pragma once
 #include "shared/face_colors.h"
 #include "shared/views.h"
@@ -12,8 +12,8 @@
 #endif
 #include "lib/lighting/lighting.glsl"
 
-// D, G or F of the one light that lighting.lights.y names, as rgb; 0 where the light is not visible from the point. Of
-// blinn_phong D is the highlight, and the others are 0; of layered materials they are those of the lowest lobe.
+// D, G or F of light lighting.lights.y, as rgb; 0 if the light does not reach the point. blinn_phong: D is the
+// highlight, and the others are 0. Layered materials: those of the lowest lobe.
 vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
 {
     vec3 shown = vec3(0.0);
@@ -39,7 +39,7 @@ vec3 specularFactorView(Surface surface, Viewpoint viewpoint)
     return shown;
 }
 
-// How much of the light that lighting.lights.y names casters let through.
+// Shadow factor of light lighting.lights.y.
 vec3 shadowView(Surface surface, Viewpoint viewpoint)
 {
 #if HAS_SHADOWS
@@ -49,7 +49,7 @@ vec3 shadowView(Surface surface, Viewpoint viewpoint)
 }
 
 #if VIEW == VIEW_CASCADES
-// Which faces of that light's maps answer, by colours: darker in its shadow, and the less a surface faces the eye.
+// Colours of the shadow-map faces that were looked up for that light: darker in shadow, and at grazing angles.
 vec3 cascadesView(Surface surface, Viewpoint viewpoint)
 {
     precise float facing = abs(dot(surface.normalLS, viewpoint.toViewerLS));
@@ -63,7 +63,7 @@ vec3 cascadesView(Surface surface, Viewpoint viewpoint)
 #endif
 
 #if VIEW == VIEW_MOVED_TOO_FAR
-// The paint that materialBaseColor() took for the colour: darker the less a surface faces the eye.
+// The flag colour that materialBaseColor() returned: darker at grazing angles.
 vec3 movedTooFarView(Surface surface, Viewpoint viewpoint)
 {
     precise float facing = abs(dot(surface.normalLS, viewpoint.toViewerLS));
@@ -87,7 +87,7 @@ vec3 viewedRadiance(Surface surface, Viewpoint viewpoint, vec2 pixel)
     return vec3(dot(surface.normalLS, normalize(view.rayDxLS.xyz)), dot(surface.normalLS, normalize(view.rayDyLS.xyz)),
                 -dot(surface.normalLS, view.forwardLS.xyz));
 #elif VIEW == VIEW_NORMAL_OBJECT
-    return surface.normalTexel * 2.0 - 1.0; // put there as it was rasterised (lib/material/material.glsl)
+    return surface.normalTexel * 2.0 - 1.0; // set at rasterisation (lib/material/material.glsl)
 #elif VIEW == VIEW_LIGHTS
     vec3 passed = vec3(0.0);
     return lightsOnSurface(vec3(0.0), seenSurface(surface, viewpoint.toViewerLS), viewpoint, pixel, passed); // counted

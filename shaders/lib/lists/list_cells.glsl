@@ -1,4 +1,4 @@
-// The cells of a tile and which of them a light may touch; used by counting and by filling.
+// Cells of a tile, and the test which of them a light may touch; used by counting and by filling.
 #pragma once
 #include "lib/lists/list_lights.glsl"
 #include "lib/lists/list_tiles.glsl"
@@ -13,7 +13,7 @@ layout(std430, binding = STORAGE_TILE_DEPTHS) readonly buffer TileDepths
     vec2 tileDepths[]; // nearest, farthest, reverse-Z
 };
 
-// Metres ahead between which each box of the tile lies.
+// Distance range of each box of the tile, in metres ahead.
 LIST_MEMORY vec2 boxRuns[LIGHT_TILE_SLICES];
 
 struct ListedTile {
@@ -23,12 +23,12 @@ struct ListedTile {
     vec2 depths;   // nearest, farthest
     uint slicing;
     uvec2 slices;
-    uint cells;    // 0: the tile shows no surface
-    uint boxes;    // of boxRuns: 0 where the box around the whole tile is all there is
+    uint cells;    // 0: no surface in the tile
+    uint boxes;    // entries of boxRuns: 0 if the box around the whole tile suffices
     CellBox whole;
 };
 
-// Slices before which there is none.
+// Occupied slices whose predecessor is empty.
 uvec2 startsOf(uvec2 slices)
 {
     return slices & ~uvec2(slices.x << 1, slices.y << 1 | slices.x >> 31);
@@ -56,14 +56,14 @@ vec2 runBetween(float nearest, float farthest)
     return vec2(aheadMetres(view.aheadFromDepth, nearest), aheadMetres(view.aheadFromDepth, farthest));
 }
 
-// Slices first..last of a tile, not more than its surfaces take up.
+// Distance range of slices first..last of a tile, within that of its surfaces.
 vec2 runOfSlices(ListedTile tile, uint first, uint last)
 {
     vec2 depths = depthsOfSlices(tile.slicing, first, last, view.depthKey.x);
     return runBetween(min(tile.depths.x, depths.y), max(tile.depths.y, depths.x));
 }
 
-// Fills in boxRuns: one run per slice for clusters, else one per run of neighbours.
+// Fills boxRuns: one entry per slice for clusters, else one per run of neighbouring slices.
 void findBoxRuns(ListedTile tile)
 {
 #if LIST_METHOD == LIST_METHOD_SLICES
@@ -113,7 +113,7 @@ bool touchesBox(ListedTile tile, CullLight cull, uint box)
     return lightTouchesBox(cull, cellBox(tile.rays, boxRuns[box].x, boxRuns[box].y, raySpread()));
 }
 
-// This lane's share of the round's lights.
+// This lane's range of the round's lights.
 uvec2 lightShare()
 {
     return listRound.x + laneShare(listRound.y - listRound.x);
@@ -127,15 +127,15 @@ bool inReach(ListedTile tile, uint light)
            && reaches(reach.y, tile.row, tile.row);
 }
 
-// The first light from `light` on whose rows and columns the tile lies in, or `end`. A loop of its own: rasterisers that
-// mask lanes instead of branching leave out nothing else, and the tiles of a block of columns agree on it.
+// The first light from `light` on whose rows and columns contain the tile, or `end`. A separate loop: rasterisers that
+// mask lanes instead of branching can skip work only by loops, and the tiles of a block of columns agree on it.
 uint nextInReach(ListedTile tile, uint light, uint end)
 {
     while (light < end && !inReach(tile, light)) ++light;
     return light;
 }
 
-// Bit k: the light, which is in reach, may touch the tile's cell k.
+// Bit k: the light may touch the tile's cell k. Its rows and columns must contain the tile.
 uvec2 touchedCells(ListedTile tile, uint light)
 {
     CullLight cull = cullLight(light);

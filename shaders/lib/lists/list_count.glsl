@@ -1,4 +1,4 @@
-// Third step: how many cells each tile has and how many entries they hold together.
+// Third step: counts the cells of each tile and their entries in total.
 #pragma once
 #include "lib/lists/list_cells.glsl"
 

@@ -1,9 +1,9 @@
-// Second step: the nearest and farthest depth of the surfaces in each tile, and the slices of that range that hold a
-// surface.
+// Second step: finds the nearest and farthest depth of the surfaces in each tile, and the slices of that range that
+// hold a surface.
 #pragma once
 #include "lib/lists/list_tiles.glsl"
 
-layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D opaqueDepth; // a range if there are several samples, as below
+layout(binding = TEXTURE_UNIT_DEPTH) uniform sampler2D opaqueDepth; // a range with several samples per pixel, as below
 #if HAS_TRANSPARENT_LAYER
 layout(binding = TEXTURE_UNIT_TRANSPARENT_DEPTH) uniform sampler2D transparentDepth; // x nearest, y farthest negated
 #endif
@@ -13,7 +13,7 @@ layout(std430, binding = STORAGE_LIGHT_TILES) writeonly buffer LightTiles
 };
 layout(std430, binding = STORAGE_TILE_DEPTHS) writeonly buffer TileDepths
 {
-    vec2 tileDepths[]; // nearest, farthest, reverse-Z; 0: the tile shows no surface
+    vec2 tileDepths[]; // nearest, farthest, reverse-Z; 0: no surface in the tile
 };
 
 LIST_MEMORY vec2 laneDepths[LIST_THREADS];

@@ -1,5 +1,5 @@
-// Last step: every tile writes its cells and their entries, lights ascending, where the scan has left it room. In rounds,
-// a step of its own counts each cell before (sizeTile); then a cell's second word is how many entries it has so far.
+// Last step: every tile writes its cells and their entries, lights ascending, where the scan placed them. With several
+// rounds, a separate step first counts each cell (sizeTile); then a cell's second word is its number of entries so far.
 #pragma once
 #include "lib/lists/list_cells.glsl"
 
@@ -22,9 +22,9 @@ layout(std430, binding = STORAGE_LIGHT_ENTRIES) writeonly buffer LightEntries
 #define MOST_CELLS 1u
 #endif
 
-// By cell, then lane: how many entries a lane has for the cell, then where its next one goes.
+// By cell, then lane: the number of the lane's entries for the cell, then the place of its next one.
 LIST_MEMORY uint laneEntries[MOST_CELLS * uint(LIST_THREADS)];
-// Entries of each cell, then the index of its first of this round.
+// Number of entries of each cell, then the index of its first one of this round.
 LIST_MEMORY uint cellEntries[MOST_CELLS];
 
 uint lowestBit(uvec2 bits)
@@ -56,7 +56,7 @@ void countLane(ListedTile tile, uvec2 share)
     }
 }
 
-// Turns the counts of a cell's lanes into places behind one another.
+// Turns the counts of a cell's lanes into consecutive places, by prefix sums.
 void placeLanes(ListedTile tile)
 {
     listSync();
@@ -72,7 +72,7 @@ void placeLanes(ListedTile tile)
     listSync();
 }
 
-// Puts cells behind one another; `sized`: their entries are yet to be written.
+// Assigns consecutive runs of entries to the cells; `sized`: the entries are yet to be written.
 void placeCells(ListedTile tile, uvec2 firsts, bool sized)
 {
     if (LIST_LANE == 0u) {
@@ -100,7 +100,7 @@ void writeLane(ListedTile tile, uvec2 share)
     }
 }
 
-// Adds the round's lights to the sizes of the tile's cells; after the last round the cells have their places.
+// Adds the round's lights to the sizes of the tile's cells; after the last round assigns the cells' runs of entries.
 void sizeTile(uvec2 item)
 {
     if (!isInGrid(item)) return;
@@ -142,7 +142,7 @@ void fillTile(uvec2 item)
 #endif
     writeLane(tile, lightShare());
 #if LIST_IN_ROUNDS
-    // The place that the last lane has come to is the number of the round's entries.
+    // The last place of the last lane is the number of the round's entries.
     listSync();
     for (uint cell = LIST_LANE; cell < tile.cells; cell += uint(LIST_THREADS))
         lightCells[firsts.x + cell].y += laneEntries[placeOf(cell, uint(LIST_THREADS) - 1u)];

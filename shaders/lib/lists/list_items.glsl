@@ -1,9 +1,9 @@
-// How the steps that build light lists are spread over a GPU: an item (a tile, a light, a depth bin) belongs to the
-// LIST_THREADS lanes of a workgroup together, or to a lane of its own. Items lie in a grid, since a grid's side may not exceed
-// 65535. Where a group holds several items, the last of a row may lie beyond the grid; rows never do (passes/ListStep.cpp).
+// Mapping of light-list items to GPU threads: an item (a tile, a light, a depth bin) belongs to the LIST_THREADS lanes
+// of a workgroup, or to a single lane. Items lie in a grid, since a grid's side may not exceed 65535. If a group holds
+// several items, the last ones of a row may lie outside the grid; rows never do (passes/ListStep.cpp).
 #pragma once
 
-// What lists are built by (culling::Method).
+// Culling methods (culling::Method).
 #define LIST_METHOD_MINMAX 1
 #define LIST_METHOD_SLICES 2
 #define LIST_METHOD_CLUSTER 3
@@ -24,7 +24,7 @@ void listSync()
     barrier();
 }
 #else
-// Alone with its item, a lane has no one to share with or to wait for.
+// A single lane per item has nothing to share or to wait for.
 #define LIST_MEMORY
 #define LIST_LANE 0u
 uvec2 listItem()
@@ -36,8 +36,8 @@ void listSync()
 }
 #endif
 
-// A lane's share of `count` things: x the first, y one beyond the last. Contiguous, so that the lanes' results are in
-// order when appended one after the other.
+// A lane's contiguous range of `count` things: x the first, y one beyond the last. The lanes' results are in order if
+// appended one after the other.
 uvec2 laneShare(uint count)
 {
     uint share = (count + uint(LIST_THREADS) - 1u) / uint(LIST_THREADS);

@@ -1,4 +1,4 @@
-// The lights as culling sees them, and the rows and columns of tiles that each may touch.
+// Culling bounds of the lights, and the rows and columns of tiles that each may touch.
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "shared/culling.h"
@@ -28,7 +28,7 @@ uint lightCount()
     return lighting.lights.x;
 }
 
-// The lights that this round is about, x the first, y one beyond the last. Where one round takes them all it is the only.
+// Lights of this round, x the first, y one beyond the last. There is a single round if it holds all lights.
 layout(std140, binding = UNIFORM_PASS) uniform ListRound
 {
     uvec4 listRound;
@@ -44,13 +44,13 @@ bool isLastRound()
     return listRound.y == lightCount();
 }
 
-// Rays of the tile in this column and row.
+// Bounds of the rays of a tile.
 vec4 raysOfTile(uint column, uint row)
 {
     return tileRays(view.rayFromPixel, column, row, 1u << lighting.tileGrid.w, view.sizePixels);
 }
 
-// Whether a run of columns or rows, first | last << 16, has any of first..last.
+// Whether a run of columns or rows, first | last << 16, overlaps first..last.
 bool reaches(uint run, uint first, uint last)
 {
     return (run & 0xffffu) <= last && (run >> 16) >= first;

@@ -1,5 +1,5 @@
-// Last step of zbin: the bitmask of the lights that touch a bin of depth, and of those that touch a tile.
-// Source: Drobot 2017, "Improved Culling for Tiled and Clustered Rendering"
+// Last step of zbin: bitmasks of the lights that touch each depth bin, and of those that touch each tile. Source:
+// Drobot 2017, "Improved Culling for Tiled and Clustered Rendering"
 #pragma once
 #include "lib/lists/list_lights.glsl"
 #include "lib/lists/list_tiles.glsl"
@@ -24,19 +24,19 @@ layout(std430, binding = STORAGE_LIGHT_ENTRIES) writeonly buffer LightEntries
 
 LIST_MEMORY uvec2 laneWords[LIST_THREADS];
 
-// Bits of the eight lights from `first` on: 1 where test(light, at) is.
+// Bits of the eight lights from `first` on: 1 if test(light, at).
 #define FOUR_BITS(test, first, at) \
     (test(first, at) | test(first + 1u, at) << 1 | test(first + 2u, at) << 2 | test(first + 3u, at) << 3)
 #define EIGHT_BITS(test, first, at) (FOUR_BITS(test, first, at) | FOUR_BITS(test, first + 4u, at) << 4)
 
-// Metres ahead between which a bin lies.
+// Distance range of a bin, in metres ahead.
 vec2 runOfBin(uint bin)
 {
     vec2 depths = depthsOfSlices(listTotals.x, bin, bin, view.depthKey.x);
     return vec2(aheadMetres(view.aheadFromDepth, depths.y), aheadMetres(view.aheadFromDepth, max(0.0, depths.x)));
 }
 
-// 1 where the light may touch the bin.
+// 1 if the light may touch the bin.
 uint binBit(uint light, vec2 run)
 {
     if (light >= lightCount()) return 0u;
@@ -44,7 +44,7 @@ uint binBit(uint light, vec2 run)
     return sphere.w < 0.0 || sphereTouchesDepths(sphere, run.x, run.y) ? 1u : 0u;
 }
 
-// 1 where the light may touch the tile.
+// 1 if the light may touch the tile.
 uint tileBit(uint light, uvec2 item)
 {
     if (light >= lightCount()) return 0u;

@@ -1,5 +1,5 @@
-// First step: the rows and columns of tiles that each light may touch, by the planes between them, looked at once a light
-// and not once a tile.
+// First step: finds the rows and columns of tiles that each light may touch, by the planes between them, which are
+// tested once per light instead of once per tile.
 #pragma once
 #include "lib/lists/list_items.glsl"
 #include "lib/lists/list_lights.glsl"
@@ -28,7 +28,7 @@ void findReach(uvec2 item)
     vec4 sphere = cullSphere(light);
     uvec2 columns = uvec2(1u, 0u);
     uvec2 rows = uvec2(1u, 0u);
-    // Lights that reach everywhere stand in no tile's list.
+    // Unbounded lights are in no tile's list.
     if (sphere.w >= 0.0) {
         for (uint i = 0u; i < lighting.tileGrid.x; ++i) {
             if (touchesColumn(sphere, i)) columns = uvec2(columns.x > columns.y ? i : columns.x, i);

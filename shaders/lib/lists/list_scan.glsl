@@ -1,6 +1,6 @@
-// Fourth step, one item: where each tile's cells and entries begin, and how many there are in all. Cell 0 is the empty cell, and the first entries are the lights that reach
-// everywhere. For zbin, which needs none of that: the bins of depth
-// between the nearest and farthest surface of all tiles.
+// Fourth step, one item: prefix sums of the tiles' cells and entries, and their totals. Cell 0 is the empty cell, and
+// the first entries are the unbounded lights. For zbin instead: the depth bins between the nearest and farthest surface
+// of all tiles.
 #pragma once
 #include "lib/lists/list_tiles.glsl"
 
@@ -13,7 +13,7 @@ layout(std430, binding = STORAGE_LIST_TOTALS) writeonly buffer ListTotals
 
 layout(std430, binding = STORAGE_TILE_DEPTHS) readonly buffer TileDepths
 {
-    vec2 tileDepths[]; // nearest, farthest, reverse-Z; 0: the tile shows no surface
+    vec2 tileDepths[]; // nearest, farthest, reverse-Z; 0: no surface in the tile
 };
 
 LIST_MEMORY vec2 laneDepths[LIST_THREADS];
@@ -48,7 +48,7 @@ layout(std430, binding = STORAGE_TILE_COUNTS) buffer TileCounts
 
 LIST_MEMORY uvec3 laneSums[LIST_THREADS];
 
-// Entries in two words: they may be more than 2^32 before anyone finds that they do not fit.
+// Entries in two words: they may exceed 2^32 before it is detected that they do not fit.
 uvec3 added(uvec3 sum, uvec3 more)
 {
     uint carry;

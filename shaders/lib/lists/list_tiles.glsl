@@ -1,4 +1,4 @@
-// Tiles as items: item (column, row) with rows counted on through the layers, opaque surfaces first.
+// Tiles as items: item (column, row); the rows of the transparent layer follow those of the opaque one.
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "lib/lists/list_items.glsl"

@@ -1,4 +1,4 @@
-// A hook that changes nothing: where a program is whole with it, but not with its scene's hook, that one is at fault
+// A hook that changes nothing: if a program builds with it, but not with its scene's hook, the scene's hook is at fault
 // (renderer/shader/HookFault.h).
 #if HOOK_SURFACE
 void hookSurface(inout HookedSurface surface, HookInputs inputs) {}

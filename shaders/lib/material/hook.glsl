@@ -1,4 +1,4 @@
-// Takes what a scene's own GLSL changes of a surface.
+// Applies a scene's hook to a surface.
 #pragma once
 #include "lib/material/hook_interface.glsl"
 #include "lib/material/material_values.glsl"
@@ -8,8 +8,8 @@
 #if HOOKED && VIEW != VIEW_MOVED_TOO_FAR
 const float HOOK_EMISSION_MOST = 1e30; // scenes::kMostEmission
 
-// What a hook gives, within bounds that are widened to the value it found, so that one it leaves alone keeps every bit.
-// NaN is the least: of it GLSL's clamp() says nothing.
+// Clamps a hook's output to bounds that are widened to its input, so that an unchanged value keeps every bit. NaN
+// becomes the minimum; GLSL's clamp() is undefined for NaN.
 float boundHooked(float given, float found, float least, float most)
 {
     float low = min(found, least), high = max(found, most);

@@ -1,5 +1,5 @@
-// What a scene's own GLSL is called with (docs/hooks.md). Where a program includes this file, the scene's text stands
-// behind all else, and before it the block `hook` with the time and its parameters.
+// Interface of a scene's GLSL hooks (docs/hooks.md). In a program that includes this file, the scene's source comes
+// last, preceded by the block `hook` with the time and its parameters.
 #pragma once
 #include "lib/maths/cut_loop.glsl"
 #include "shared/hook.h"
@@ -13,25 +13,25 @@ struct HookedSurface {
 };
 
 struct HookInputs {
-    vec2 uv;         // the first texture coordinates, 0 where the mesh has none
+    vec2 uv;         // first texture coordinates, 0 if the mesh has none
     vec3 positionOS; // as drawn: after skins, morph targets and hookVertex()
-    int instance;    // place of the mesh instance in the scene, from 0
+    int instance;    // index of the mesh instance in the scene, from 0
 };
 
-// Conditions of a hook's loops end by `&& hookGoesOn()` (scenes/HookLoops.h), so that no loop is endless.
+// Loop conditions of a hook get `&& hookGoesOn()` appended (scenes/HookLoops.h), so that no loop is endless.
 int hookIterations = 0;
 bool hookGoesOn()
 {
     ++hookIterations;
     return hookIterations <= HOOK_ITERATIONS_MOST;
 }
-// Whether loops of the hook were ended. `place` is that of loopsAreCut().
+// Whether loops of the hook were truncated. `place`: as in loopsAreCut().
 bool hookIsCut(int place)
 {
     return hookIterations > HOOK_ITERATIONS_MOST || loopsAreCut(place);
 }
 
-// The scene's, those that it has.
+// Defined by the scene, if it has them.
 #if HOOK_SURFACE
 void hookSurface(inout HookedSurface surface, HookInputs inputs);
 #endif

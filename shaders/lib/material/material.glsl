@@ -1,5 +1,4 @@
-// A surface from a material, as it is rasterised; and from the material's constants alone, where pixels hold its
-// number.
+// Evaluates a material: as it is rasterised, or from its constants alone if pixels store its number.
 #pragma once
 #include "lib/material/hook.glsl"
 #include "lib/material/material_frame.glsl"
@@ -7,8 +6,8 @@
 #include "lib/surface/surface.glsl"
 
 #if HAS_PASSING_LIGHT
-// Beer's law: what the body leaves of white light whose way through it is so many times its thickness; all of it, to the
-// last bit, of a colour that the body does not absorb.
+// Beer's law: transmittance of the body for a path of `thicknesses` times its thickness; exactly 1 in channels that the
+// body does not absorb.
 vec3 leftByBody(float thicknesses)
 {
     if (!(thicknesses > 0.0)) return vec3(1.0);
@@ -35,12 +34,12 @@ void setPassing(Fragment fragment, vec3 baseColor, float metallic, float ior, in
     surface.passing = passing;
     surface.leftByBody = leftByBody(thicknesses);
     surface.passingIor = ior;
-    surface.passingAlpha = ior == 1.0 ? ALPHA_MIN : surface.alpha; // facets that bend nothing spread nothing
+    surface.passingAlpha = ior == 1.0 ? ALPHA_MIN : surface.alpha; // without refraction there is no blur
     surface.bodyMetres = bodyMetres;
 }
 #endif
 
-// All of a surface except directions on it: values that are constant over the surface if the scene has no varying
+// Sets all of a surface except directions: values that are constant over the surface if the scene has no varying
 // materials.
 void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
 {
@@ -83,7 +82,7 @@ void setMaterialValues(Fragment fragment, vec4 baseColor, inout Surface surface)
             reflectance = contrast * contrast;
         }
 #endif
-        // KHR_materials_specular: the dielectric F0 is tinted, held to 1, then scaled.
+        // KHR_materials_specular: the dielectric F0 is tinted, clamped to 1, then scaled.
         precise vec3 f0 = min(specularColor * reflectance, vec3(1.0)) * specularFactor;
         surface.specular = f0;
 #endif

@@ -8,7 +8,7 @@ bool materialFlag(uint flag)
     return (material.kind.y & flag) != 0u;
 }
 
-// Turned to the side that is seen where the material has two.
+// Turns the normal of a double-sided material to the visible side.
 vec3 facing(Fragment fragment, vec3 normal)
 {
 #if HAS_DOUBLE_SIDED
@@ -17,8 +17,9 @@ vec3 facing(Fragment fragment, vec3 normal)
     return normal;
 }
 
-// Its part along the viewer's direction is raised until the normal faces the viewer (lib/raster/facing.glsl): a turn in the
-// plane of both, which goes on smoothly to a normal that points straight away. One that does keeps its bits and length.
+// Bends a normal until it faces the viewer (lib/raster/facing.glsl), by raising its component along the viewer's
+// direction; this is continuous up to a normal that points straight away. A normal that faces the viewer keeps its bits
+// and length.
 vec3 bentToViewer(Fragment fragment, vec3 normal)
 {
     vec3 unit = safeNormalize(normal, vec3(0.0, 0.0, 1.0));
@@ -29,7 +30,7 @@ vec3 bentToViewer(Fragment fragment, vec3 normal)
 }
 
 #if HAS_TANGENTS
-// A direction given by its components along tangent, bitangent and normal.
+// Lighting-space direction with these components along tangent, bitangent and normal.
 vec3 fromTangentSpace(Fragment fragment, vec3 vertexNormal, vec3 direction)
 {
     vec3 tangent = safeNormalize(fragment.tangentLS.xyz, vec3(0.0));
@@ -38,8 +39,8 @@ vec3 fromTangentSpace(Fragment fragment, vec3 vertexNormal, vec3 direction)
     return turned;
 }
 
-// A texture's vector along tangent and bitangent, whose own transform turns it against the texture that they follow.
-// `turn` is as MaterialConstants has it.
+// A texture's vector along tangent and bitangent, rotated by the texture's transform relative to the texture that they
+// follow. `turn`: as in MaterialConstants.
 vec2 turnedTexel(vec2 texel, vec3 turn)
 {
     precise float across = texel.y * turn.z;
@@ -56,7 +57,7 @@ vec3 tangentSpaceNormal(Fragment fragment, vec3 vertexNormal, vec3 texel, float 
 }
 #endif
 
-// Not always unit; 0 where there is no direction.
+// Shading normal, not always unit; 0 if it has no direction.
 vec3 materialNormal(Fragment fragment, vec3 texel)
 {
     vec3 normal = fragment.normalLS;
@@ -80,9 +81,8 @@ vec3 materialNormal(Fragment fragment, vec3 texel)
 }
 
 #if VIEW == VIEW_NORMAL_OBJECT
-// The lit normal in the object's own space, 0 where the node's transform flattens its direction: normals go to lighting
-// space by the cofactor matrix times the sign of the determinant, which the transposed matrix takes back up to a factor
-// > 0.
+// Shading normal in object space, 0 if the node's transform flattens its direction: normals go to lighting space by the
+// cofactor matrix times the sign of the determinant, which the transposed matrix inverts up to a factor > 0.
 vec3 objectNormal(Fragment fragment, vec3 normal)
 {
     mat3 m = fragment.objectFromNormal;

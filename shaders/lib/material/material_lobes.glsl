@@ -1,17 +1,17 @@
-// What only some materials have beside normal, roughness and colours: an anisotropic lobe, a coat, a sheen.
+// Optional lobes of a material: anisotropy, clear coat, sheen.
 #pragma once
 #include "lib/material/material_frame.glsl"
 #include "lib/maths/octahedral.glsl"
 #include "lib/surface/surface.glsl"
 
 #if HAS_TANGENT_FRAME
-// `direction` lies in tangent space, of any length.
+// `direction`: in tangent space, of any length.
 vec3 surfaceTangent(Fragment fragment, vec3 normalLS, vec2 direction)
 {
     vec3 vertexNormal = safeNormalize(fragment.normalLS, vec3(0.0, 0.0, 1.0));
     vec3 turned = fromTangentSpace(fragment, vertexNormal, vec3(direction, 0.0));
     precise vec3 across = turned - normalLS * dot(normalLS, turned);
-    // Along the normal only rounding would be left of it.
+    // If it points along the normal, only rounding would be left.
     vec3 tangent = safeNormalize(dot(across, across) > 1e-8 * dot(turned, turned) ? across : vec3(0.0), anyPerpendicular(normalLS));
     return tangent;
 }
@@ -33,7 +33,7 @@ void setAnisotropy(Fragment fragment, inout Surface surface)
     if (HAS_ANISOTROPY_STRENGTH(surface.model)) {
         if (materialFlag(MATERIAL_FLAG_ANISOTROPY_TEXTURE)) {
             precise vec2 mapped = texel.rg * 2.0 - 1.0;
-            // A texel of 8 bits cannot say 0; less than its step has no direction.
+            // An 8-bit texel cannot represent 0; below its step there is no direction.
             if (dot(mapped, mapped) > 1e-4) direction = mapped;
         }
         precise float strength = material.anisotropy.x * texel.b;
@@ -46,8 +46,8 @@ void setAnisotropy(Fragment fragment, inout Surface surface)
 #endif
 
 #if HAS_CLEARCOAT
-// Source: KHR_materials_clearcoat. Without a map of its own the coat has the mesh's normal, independent of the normal
-// map below it.
+// Source: KHR_materials_clearcoat. Without a normal map for the coat it has the mesh's normal, independent of the
+// normal map below it.
 void setClearcoat(Fragment fragment, inout Surface surface)
 {
     precise float factor = material.clearcoat.x;

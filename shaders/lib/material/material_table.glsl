@@ -1,10 +1,10 @@
-// The values of a surface whose pixels hold only the number of their material: those that it was rasterised with, by the same
+// Values of surfaces whose pixels store only the number of their material: computed as at rasterisation, by the same
 // functions from the same constants.
 #pragma once
 #define MATERIAL_FROM_TABLE 1
 #include "lib/material/material.glsl"
 
-// MATERIAL_TEXELS a material, in its order. As integers, since some of them are, and those that are floats keep their bits.
+// MATERIAL_TEXELS per material, in member order. Read as integers: some members are, and floats keep their bits.
 layout(binding = TEXTURE_UNIT_MATERIALS) uniform usamplerBuffer materialTable;
 
 vec4 tabledConstants(int number, int texel)

@@ -1,6 +1,6 @@
-// A material's constants and textures at a fragment. Every value is factor x texel; an empty slot samples white, and factor x
-// 1 is the factor to the last bit. Textures are fetched outside any branch on per-pixel values, with implicit derivatives, by
-// the same call in every pass: explicit gradients would give other texels.
+// A material's constants and textures at a fragment. Every value is factor x texel; an empty slot samples white, which
+// keeps the factor to the last bit. Textures are fetched outside any branch on per-pixel values, with implicit
+// derivatives, by the same call in every pass: explicit gradients would give other texels.
 #pragma once
 #include "shared/slots.h"
 #include "shared/hook.h"
@@ -36,35 +36,35 @@ layout(binding = TEXTURE_SLOT_THICKNESS) uniform sampler2D thicknessTexture;
 layout(binding = TEXTURE_SLOT_IRIDESCENCE) uniform sampler2D iridescenceTexture;
 layout(binding = TEXTURE_SLOT_IRIDESCENCE_THICKNESS) uniform sampler2D iridescenceThicknessTexture;
 
-// What the rasteriser interpolates over a triangle.
+// Interpolated attributes of a fragment.
 struct Fragment {
     vec3 normalLS;      // not unit
     vec4 tangentLS;     // xyz not unit, w handedness with the node's mirroring
     TexCoord texCoord[2];
 #if FILTER_EXACT && HAS_MIXED_FILTERS
-    dmat2 texCoordChange[2]; // to the next pixel: a column to the right, a column up
+    dmat2 texCoordChange[2]; // change per pixel: first column to the right, second up
 #endif
     vec4 color;
     mat3 normalFromObject; // cofactor matrix of the node, with its mirroring
     bool frontFacing;
-    vec3 toViewerLS;    // unit; 0 where nobody looks, as in an atlas
-    float leastFacing;  // the cosine that lit normals have to it at least; 0 where nobody looks
+    vec3 toViewerLS;    // unit; 0 without a viewer, as in an atlas
+    float leastFacing;  // minimum cosine between shading normals and it; 0 without a viewer
 #if HOOKED
     vec3 positionOS;
-    int instance; // place of the mesh instance in the scene
+    int instance; // index of the mesh instance in the scene
 #endif
 #if HAS_SHADOWS
     vec3 facetNormalLS; // of the triangle; unit, away from the viewer
 #endif
 #if HAS_SHADOW_LIFT
-    uint liftCode;      // how far above it shadows are asked for (lib/shadow/shadow_lift.glsl)
+    uint liftCode;      // shadow lift (lib/shadow/shadow_lift.glsl)
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
-    mat3 objectFromNormal; // transposed LS-from-object: takes normals back, up to their length
+    mat3 objectFromNormal; // transposed LS-from-object: transforms normals back, up to their length
 #endif
 };
 
-// Where nothing is interpolated.
+// A fragment without interpolated attributes.
 Fragment plainFragment()
 {
     Fragment fragment;
@@ -112,7 +112,7 @@ TexCoord slotCoordinate(Fragment fragment, int slot)
     return uv;
 }
 
-// Whether the slot's sampler takes single texels here.
+// Whether the slot's sampler uses nearest filtering here.
 bool slotTakesNearest(sampler2D image, int slot, Fragment fragment, int modes)
 {
 #if FILTER_EXACT && HAS_MIXED_FILTERS
@@ -153,7 +153,7 @@ vec4 materialBaseColor(Fragment fragment)
 #if VIEW == VIEW_MOVED_TOO_FAR
     color.rgb = vec3(0.4);
 #if HAS_VERTEX_COLOR
-    // Opacities beyond 1 are engine::HookedScene's marks, 1 apart.
+    // Opacities above 1 are flags of engine::HookedScene, 1 apart.
     precise float tooFar = clamp(fragment.color.a - (HOOK_MARK_TOO_FAR - 1.0), 0.0, 1.0);
     precise float nowhere = clamp(fragment.color.a - (HOOK_MARK_NOWHERE - 1.0), 0.0, 1.0);
     color.rgb += tooFar * (vec3(0.9, 0.0, 0.9) - color.rgb);
@@ -163,7 +163,7 @@ vec4 materialBaseColor(Fragment fragment)
     return color;
 }
 
-// True where an alpha-masked material has a hole.
+// True where an alpha-masked material is cut out.
 bool materialCutOut(vec4 baseColor)
 {
 #if HAS_ALPHA_MASK

@@ -1,7 +1,7 @@
-// How a material texture is read. `hardware`: by the driver and the sampler. `exact`: by OpenGL's definition for a
-// texture of one level, computed in fp32 from fetched texels, the definition that the double-precision reference shares:
-// hardware bilinear of 8-bit textures may be off by 3.5e-3, and the choice of level is the implementation's. For the same
-// reason `exact` decodes sRGB colours itself, from textures that hold their code values.
+// Filtering of material textures. `hardware`: by the driver and the sampler. `exact`: by OpenGL's definition for a
+// texture of one level, computed in fp32 from fetched texels, which the double-precision reference shares: hardware
+// bilinear filtering of 8-bit textures may be off by 3.5e-3, and the choice of level is implementation-defined. For the
+// same reason `exact` decodes sRGB colours itself, from textures that hold their code values.
 #pragma once
 #include "shared/material.h"
 
@@ -12,7 +12,7 @@
 #define TexCoord vec2
 #endif
 
-// A texel index brought into 0 .. size-1; mode is the Wrap of scenes::Sampler.
+// Wraps a texel index into 0 .. size-1; `mode`: the Wrap of scenes::Sampler.
 int wrapTexel(int index, int size, int mode)
 {
     if (mode == 1) return clamp(index, 0, size - 1);
@@ -23,8 +23,8 @@ int wrapTexel(int index, int size, int mode)
 }
 
 #if FILTER_EXACT
-// IEC 61966-2-1 for code values 0..1. x^2.4 is x^2 times the fifth root of x^2, and two of Newton's steps make up for
-// what pow() lacks: drivers may be off by 1e-3 in decoding formats, and by less in pow().
+// IEC 61966-2-1 for code values 0..1. x^2.4 is x^2 times the fifth root of x^2, and two Newton steps correct pow():
+// drivers may be off by 1e-3 in decoding formats, and by less in pow().
 vec3 decodeSrgb(vec3 code)
 {
     precise vec3 x = (code + 0.055) / 1.055;
@@ -50,8 +50,8 @@ vec4 linearTexel(sampler2D image, int x, int y, int modes)
 #endif
 
 #if FILTER_EXACT && HAS_MIXED_FILTERS
-// Whether the sampler takes single texels where the coordinate changes by the columns of `change` to the next pixels: by
-// the level of detail, log2 of the longer one in texels. Source: OpenGL 4.5 core, sections 8.14.1 and 8.15.
+// Whether the sampler uses nearest filtering, by the level of detail: log2 of the longer column of `change`, the change
+// of the coordinate to the next pixels, in texels. Source: OpenGL 4.5 core, sections 8.14.1 and 8.15.
 bool takesNearest(sampler2D image, dmat2 change, int modes)
 {
     dvec2 size = dvec2(textureSize(image, 0));
@@ -62,7 +62,7 @@ bool takesNearest(sampler2D image, dmat2 change, int modes)
 }
 #endif
 
-// modes: MaterialConstants::uvRow1[slot].w; nearest: whether single texels are taken, for `exact`.
+// modes: MaterialConstants::uvRow1[slot].w; nearest: whether filtering is nearest, for `exact`.
 vec4 sampleFiltered(sampler2D image, TexCoord uv, int modes, bool nearest)
 {
 #if FILTER_EXACT
@@ -76,7 +76,7 @@ vec4 sampleFiltered(sampler2D image, TexCoord uv, int modes, bool nearest)
     int x1 = wrapTexel(int(corner.x) + 1, size.x, modeU);
     int y0 = wrapTexel(int(corner.y), size.y, modeV);
     int y1 = wrapTexel(int(corner.y) + 1, size.y, modeV);
-    // a + (b - a) w, so that equal texels stay what they are to the last bit: a normal of no length must not gain one.
+    // a + (b - a) w keeps equal texels to the last bit: a normal without length must not gain one.
     precise vec4 upperLeft = linearTexel(image, x0, y0, modes);
     precise vec4 lowerLeft = linearTexel(image, x0, y1, modes);
     precise vec4 upper = upperLeft + (linearTexel(image, x1, y0, modes) - upperLeft) * weight.x;

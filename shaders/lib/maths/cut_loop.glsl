@@ -1,10 +1,10 @@
-// NaN, of loops that Mesa ends after 65,535 iterations together: it shows, where light that is not known would not.
+// NaN, the result of loops that Mesa truncates after 65,535 iterations in total: NaN is visible, missing light is not.
 #pragma once
 
 #define CUT_LOOP uintBitsToFloat(0x7FC00000u)
 
-// Whether the driver's iterations are exhausted: then each further loop ends after its first one. `place` is never
-// negative; compilers do not know that, so they cannot unroll the loop.
+// Whether the driver's iteration limit is reached: then every further loop ends after its first iteration. `place` is
+// never negative; compilers do not know that, so they cannot unroll the loop.
 bool loopsAreCut(int place)
 {
     int most = place < 0 ? 3 : 2;

@@ -1,11 +1,11 @@
-// Small numerics that every other library file may use.
+// Small numerical functions for all other library files.
 #pragma once
 
 const float kPi = 3.14159265358979323846;
 const float kInversePi = 1.0 / kPi;
 
-// Unit vector along v, or `fallback` where v is too short to have a direction (a zero-length normal texel, a singular node).
-// Vectors outside about 1e-19 .. 1e19 would leave fp32's range when squared, so the length is taken after scaling.
+// Unit vector along v, or `fallback` if v has no direction (a zero-length normal texel, a singular node). Vectors
+// outside about 1e-19 .. 1e19 would leave fp32's range when squared, so the length is computed after scaling.
 vec3 safeNormalize(vec3 v, vec3 fallback)
 {
     precise float largest = max(max(abs(v.x), abs(v.y)), abs(v.z));
@@ -15,7 +15,7 @@ vec3 safeNormalize(vec3 v, vec3 fallback)
     return unit;
 }
 
-// A unit vector at right angles to the unit vector n. Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+// Unit vector perpendicular to the unit vector n. Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
 vec3 anyPerpendicular(vec3 n)
 {
     float side = n.z >= 0.0 ? 1.0 : -1.0;

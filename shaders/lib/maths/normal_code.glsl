@@ -1,15 +1,15 @@
-// Normals in 53 bits, as every technique lights them: what a G-buffer of 8 bytes a pixel holds, forward lights as well.
+// Normals quantised to 53 bits, as every technique shades with them: forward encodes and decodes what deferred stores.
 #pragma once
 #include "shared/normals.h"
 
-// The axis of the largest component and its sign, and the others as shares of it, in steps that fp32 holds exactly: half
-// a step is 3e-8, and an axis is exact.
+// Axis and sign of the largest component, and the other components as ratios to it, in steps that fp32 holds exactly.
+// Half a step is 3e-8, and directions along an axis are exact.
 struct NormalCode {
     uvec2 shares; // NORMAL_SHARE_BITS each
-    uint axis;    // 0 to 2, and 4 where the component is negative
+    uint axis;    // 0 to 2, plus 4 if the component is negative
 };
 
-// Of a vector of any length; upwards where it is too short to have a direction.
+// Encodes a vector of any length; +z if it is too short to have a direction.
 NormalCode encodeNormal(vec3 direction)
 {
     vec3 size = abs(direction);

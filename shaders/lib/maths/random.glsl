@@ -1,4 +1,4 @@
-// Numbers that look random, the same on every machine.
+// Random numbers by hashing, the same on every machine.
 #pragma once
 
 // Source: pcg3d of Jarzynski and Olano 2020, "Hash Functions for GPU Rendering".

@@ -1,13 +1,12 @@
-// Which samples an alpha-masked material covers. One function for the prepass and for shading, so that both keep the
-// same.
-// Source: B. Golus 2017, "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage".
+// Sample coverage of alpha-masked materials. The prepass and shading use the same function, so that both keep the same
+// samples. Source: B. Golus 2017, "Anti-aliased Alpha Test: The Esoteric Alpha To Coverage".
 #pragma once
 #include "lib/material/material.glsl"
 
 #if HAS_ALPHA_MASK && SAMPLES > 1
-// Alpha is sharpened around the cutoff until its edge is one pixel wide, whatever the texture's magnification; then it
-// is the covered fraction of the pixel, rounded to whole samples. The lowest bits are set, rather than leaving their
-// choice to the driver's alpha-to-coverage. To be called in uniform control flow, because of the derivative.
+// Sharpens alpha around the cutoff until its edge is one pixel wide, whatever the texture's magnification; the result
+// is the covered fraction of the pixel, rounded to whole samples. Sets the lowest bits instead of leaving the choice to
+// the driver's alpha-to-coverage. Call in uniform control flow, because of the derivative.
 int maskedSamples(vec4 baseColor)
 {
     precise float cutoff = material.emissive.a;

@@ -1,7 +1,7 @@
 #pragma once
 
-// How depths grow from a pixel to the next on the surface that it shows: the smaller of the steps to its neighbours, of
-// which one may show something else.
+// Depth difference between a pixel and the next on the same surface: the smaller of the steps to both neighbours, since
+// one of them may show another surface.
 float stepOnSurface(float last, float here, float next)
 {
     precise float forward = next - here, back = here - last;

@@ -1,5 +1,5 @@
-// A thin film on a surface as it is rasterised (docs/iridescence.md): the surface gets the reflectance f0 whose Schlick curve
-// goes through what the film reflects towards the viewer, so that lighting and the G-buffer know of no film.
+// Thin-film iridescence at rasterisation (docs/iridescence.md): replaces f0 by the one whose Schlick curve passes
+// through the film's reflectance towards the viewer, so that lighting and the G-buffer need no film parameters.
 #pragma once
 #include "lib/material/material_values.glsl"
 #include "lib/surface/camera.glsl"
@@ -9,7 +9,7 @@
 #include "lib/reflectance/film.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
-// Nearer to the horizon Schlick's curve is nearly 1 whatever f0 is, so that none would go through.
+// At smaller cosines Schlick's curve is nearly 1 for every f0, so that none would match.
 const float kFilmLeastCosine = 0.1;
 
 void coverWithFilm(Fragment fragment, inout Surface surface)
@@ -24,7 +24,7 @@ void coverWithFilm(Fragment fragment, inout Surface surface)
     float texel = sampleSlot(iridescenceThicknessTexture, TEXTURE_SLOT_IRIDESCENCE_THICKNESS, fragment).g;
     thickness += (1.0 - texel) * (material.film.w - material.film.z);
 #endif
-    if (!(thickness > 0.0)) share = 0.0; // its texture is dark there, or left out
+    if (!(thickness > 0.0)) share = 0.0; // no film here
     SeenSurface seen = seenSurface(surface, viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS);
     float cosine = clamp(seen.nv, kFilmLeastCosine, 1.0);
     vec3 bare = fresnelSchlick(seen.f0, seen.fresnelRise, cosine);
@@ -37,7 +37,7 @@ void coverWithFilm(Fragment fragment, inout Surface surface)
     surface.specular = f0;
     surface.iorOrF90 = f90;
     surface.albedo = albedo;
-    surface.metallic = 0.0; // it is in f0 and albedo
+    surface.metallic = 0.0; // included in f0 and albedo
 }
 #else
 void coverWithFilm(Fragment fragment, inout Surface surface)

@@ -1,4 +1,4 @@
-// The fragment side of rasterised geometry: what geometry.vert interpolates, gathered for lib/material/material.glsl.
+// Fragment-shader inputs of rasterised geometry: gathers the outputs of geometry.vert for lib/material/material.glsl.
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "lib/material/material.glsl"
@@ -30,7 +30,7 @@ layout(location = 7) flat in vec3 normalFromObject2;
 #endif
 #if VIEW == VIEW_NORMAL_OBJECT
 #if BY_TRIANGLE
-#define OBJECT_ROWS 20 // passes/triangle.geom hands on more than a vertex may
+#define OBJECT_ROWS 20 // passes/triangle.geom has more outputs than a vertex shader may have
 #else
 #define OBJECT_ROWS 11
 #endif
@@ -76,8 +76,8 @@ Fragment rasterisedFragment()
 #if !IN_ATLAS
     ShadingPlace place = shadingPlace();
 #endif
-    // Where a fragment covers a part of its pixel, its centre may lie beside the triangle: normals there go on past those of
-    // the corners, to lights behind them.
+    // The centre of a partly covered pixel may lie outside the triangle, where extrapolated normals may face lights
+    // behind it. So normals are evaluated at the shading position.
 #if BY_TRIANGLE
 #if SAMPLES > 1
     dvec3 placeWeights = triangleWeights(place.pixel);
@@ -93,7 +93,7 @@ Fragment rasterisedFragment()
     fragment.normalLS = normalLS;
 #endif
 #if !IN_ATLAS
-    fragment.toViewerLS = viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS; // whatever the depth
+    fragment.toViewerLS = viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS; // independent of depth
 #if BY_TRIANGLE
     fragment.leastFacing = leastFacing(triangleCosine(gl_FragCoord.xy));
 #else
@@ -105,7 +105,7 @@ Fragment rasterisedFragment()
     fragment.tangentLS = tangentLS;
 #endif
 #if HAS_OBJECT_SPACE_NORMALS
-    // The vertex stage has the rows of the matrix.
+    // The inputs are the rows of the matrix.
     fragment.normalFromObject = transpose(mat3(normalFromObject0, normalFromObject1, normalFromObject2));
 #endif
 #if HAS_SHADOWS
@@ -153,8 +153,8 @@ Fragment rasterisedFragment()
 #if HAS_VERTEX_COLOR
     if (largestColor != 0.0) fragment.color = vertexColor;
 #if SAMPLES > 1
-    // A pixel's centre may lie outside the triangle, where colours go on beyond those of the vertices. Not
-    // `centroid`, whose point may depend on what the depth test leaves, and so on whether there was a prepass.
+    // A pixel's centre may lie outside the triangle, where colours are extrapolated. `centroid` is no substitute: its
+    // position may depend on the depth test, and so on whether there was a prepass.
     fragment.color = clamp(fragment.color, 0.0, max(largestColor, 1.0));
 #endif
 #endif

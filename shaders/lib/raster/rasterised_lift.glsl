@@ -1,11 +1,11 @@
-// How far above a smooth-shaded triangle its shadows are asked for: from the surface that the tangent planes of its corners
-// span (Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II, chapter 4). Each plane lies dot(normal, corner -
-// point) above the point, and the corners' weights blend these heights:
+// Shadow lift: offset of shadow look-ups above a smooth-shaded triangle, to the surface that the tangent planes of its
+// corners span (Hanika 2021, "Hacking the Shadow Terminator", Ray Tracing Gems II, chapter 4). Each plane lies
+// dot(normal, corner - point) above the point, and the barycentric weights blend these heights:
 //   sum of weight_i dot(normal_i, corner_i - point) = sum over the edges of weight_i weight_j dot(corner_j - corner_i,
 //   normal_j - normal_i)
-// So triangles with a common edge agree along it, and one whose corners have one normal is lifted by exactly 0. Where the
-// surface is hollow, the planes lie below the triangle, which turns away from lights that its normals face all the same:
-// there the point is lifted as far as they lie below.
+// So triangles with a common edge agree along it, and a triangle with equal vertex normals has exactly no lift. On a
+// concave surface the planes lie below the triangle, which may turn away from lights that its normals face: there the
+// lift is the absolute height.
 #pragma once
 #if BY_TRIANGLE
 layout(location = 2) flat in float facetIsLifted;
@@ -27,7 +27,7 @@ float rasterisedLift(dvec3 weights)
 layout(location = 18) in float tangentPlane;
 layout(location = 19) flat in float facetIsLifted;
 
-// At a point of the triangle with that normal, not unit; `aside` pixels from where vertices are interpolated.
+// `normal`: interpolated at the point, not unit; `aside`: offset in pixels from where attributes are interpolated.
 float rasterisedLift(vec3 positionLS, vec3 normal, vec2 aside)
 {
     precise float plane = tangentPlane;

@@ -1,17 +1,17 @@
-// Where a fragment is lit. One function for every pass that shades, or that stores the depth of shading.
+// Position at which a fragment is shaded, for every pass that shades or that stores the shading depth.
 #pragma once
 
 struct ShadingPlace {
     vec2 pixel;  // window coordinates
-    float depth; // of the triangle there, as the depth buffer has it
+    float depth; // depth-buffer value of the triangle there
 };
 
 #if SAMPLES > 1
-// With several samples, a pixel is lit once for all those that a triangle covers: in the middle of them. The pixel's own
-// centre may lie beside the triangle, where its plane goes on behind what stands next to it, or past the horizon; light
-// and shadow there are not the triangle's. Samples are those that the triangle covers, whatever the depth test leaves
-// (ARB_post_depth_coverage has the other kind), so a prepass does not move the place. Where a triangle
-// seen edge-on is so steep that the sum loses its digits, kLeastDepth keeps it before the horizon.
+// With multisampling, a pixel is shaded once for all samples that a triangle covers, at their centroid. The pixel's
+// centre may lie outside the triangle, where its plane continues behind adjacent surfaces, or past the horizon; light
+// and shadow there are not the triangle's. Coverage is taken before the depth test (unlike ARB_post_depth_coverage), so
+// a prepass does not move the position. If a triangle seen edge-on is so steep that the sum loses its digits,
+// kLeastDepth keeps the depth in front of the horizon.
 ShadingPlace shadingPlace()
 {
     const vec2 kPlaces[SAMPLES] = vec2[](SAMPLE_PLACES); // from the pixel's lower left corner
@@ -25,7 +25,7 @@ ShadingPlace shadingPlace()
     }
     ShadingPlace place = ShadingPlace(gl_FragCoord.xy, min(gl_FragCoord.z, 1.0));
     precise vec2 slope = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));
-    // A pixel that is covered as a whole is lit in its centre, and so is one that is run for derivatives alone.
+    // Fully covered pixels and helper invocations are shaded at the centre.
     if (covered > 0 && covered < SAMPLES) {
         precise vec2 aside = sum / float(covered) - 0.5;
         precise vec2 pixel = gl_FragCoord.xy + aside;
@@ -39,7 +39,7 @@ ShadingPlace shadingPlace()
 #else
 ShadingPlace shadingPlace()
 {
-    // As the depth buffer holds it: where the near plane cuts a triangle, rounding may leave it beyond 0 to 1.
+    // Clamped as in the depth buffer: where the near plane cuts a triangle, rounding may exceed 0 to 1.
     precise float depth = clamp(gl_FragCoord.z, 0.0, 1.0);
     return ShadingPlace(gl_FragCoord.xy, depth);
 }

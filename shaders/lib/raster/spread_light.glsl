@@ -1,5 +1,5 @@
-// Light that has spread over a surface before it is drawn (docs/skin.md). The surface emits it, and reflects of the
-// frame's lights the highlights and the share of light that does not spread.
+// Diffused irradiance of subsurface scattering, computed before the surface is drawn (docs/skin.md). The surface emits
+// it, and reflects the frame's lights by its highlights and by the fraction of light that is not diffused.
 #pragma once
 #include "lib/surface/camera.glsl"
 #include "lib/surface/surface.glsl"
@@ -8,24 +8,23 @@
 #include "lib/material/material.glsl"
 #include "lib/reflectance/reflectance.glsl"
 
-// A cell for each object, with texels of light on all sides of every chart (SpreadLightAtlas of
-// renderer/frame/Diffusion.h).
+// One cell per object, with texels of light around every chart (SpreadLightAtlas of renderer/frame/Diffusion.h).
 layout(binding = IMAGE_UNIT_SPREAD_LIGHT, rgba32f) readonly uniform image2D spreadLightAtlas;
 
 #if FILTER_EXACT
-layout(location = 19) flat in int spreadingNumber; // from 1; 0: the object has none
+layout(location = 19) flat in int spreadingNumber; // atlas cell + 1; 0: the object has none
 #else
 layout(location = 14) flat in int spreadingNumber;
 #endif
 
-// rgb the share of light that leaves where it enters, a the texels around what the coordinates 0 to 1 cover.
+// rgb fraction of light that leaves where it enters, a texels around the area of the coordinates 0 to 1.
 vec4 ofSpreadCell(int cell)
 {
     return imageLoad(spreadLightAtlas, ivec2(cell % SPREAD_CELL_COLUMNS,
                                           SPREAD_CELL_ROWS * SPREAD_CELL_TEXELS + cell / SPREAD_CELL_COLUMNS));
 }
 
-// Bilinear, of the texels that know light; alpha is 0 where none does, as on a chart smaller than a texel.
+// Bilinear over the texels that hold light; alpha is 0 if none does, as on a chart smaller than a texel.
 vec4 spreadLightAt(vec2 texCoord, int cell, float border)
 {
     ivec2 corner = ivec2(cell % SPREAD_CELL_COLUMNS, cell / SPREAD_CELL_COLUMNS) * SPREAD_CELL_TEXELS;
@@ -43,14 +42,13 @@ vec4 spreadLightAt(vec2 texCoord, int cell, float border)
     return vec4(known, 1.0);
 }
 
-// Makes a surface one that holds the light which has spread as emission, and of metallic_roughness its own F0 as that of
-// a dielectric. addMaterial() of renderer/frame/MaterialFeatures.cpp says so of the scene, for G-buffers to store
-// both.
+// Adds the diffused light to the surface's emission, and makes F0 of metallic_roughness that of a dielectric.
+// addMaterial() of renderer/frame/MaterialFeatures.cpp adds both to the scene's features, so that G-buffers store them.
 void takeSpreadLight(Fragment fragment, inout Surface surface)
 {
     if (spreadingNumber == 0 || IS_UNLIT(surface.model)) return;
-    // Which share of the light that leaves goes to the viewer is the same whatever its way: what a mirror image of the
-    // viewer would lose where it enters, the viewer loses where it leaves.
+    // The fraction of leaving light that goes to the viewer does not depend on its path: it equals the fraction that
+    // enters from the viewer's mirrored direction.
     vec3 toViewer = viewpointFromDepth(gl_FragCoord.xy, 0.5).toViewerLS;
     SeenSurface seen = seenSurface(surface, toViewer);
     vec3 after = powerOf(surface.albedo, 1.0 - material.mixed.z);

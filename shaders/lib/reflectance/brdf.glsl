@@ -1,14 +1,14 @@
-// The microfacet terms, each in the form that keeps its digits in fp32 (stated and bounded in docs/numerics.md).
-// Everything is `precise`, so that no compiler contracts one technique's copy differently from another's.
+// Microfacet terms, each in a form that keeps its digits in fp32 (bounds in docs/numerics.md). Everything is `precise`,
+// so that no compiler contracts one technique's copy differently from another's.
 #pragma once
 #include "lib/maths/math.glsl"
 
-// The sum l + v of the unit vectors to a light and to a viewer, taken apart along the unit normal n. Its direction is the half
-// vector h; terms divide by its squared length where they need h.
+// The sum l + v of the unit vectors to a light and to a viewer, split along the unit normal n. Its direction is the
+// half vector h; terms divide by its squared length where they need h.
 struct HalfSum {
-    vec3 across;   // what is left without its part along n; as good as n x h: both err by the last digit of the sum
+    vec3 across;   // the part perpendicular to n; as accurate as n x h: both err by the last digit of the sum
     float across2; // |across|^2 = |n x h|^2 length2
-    float along;   // n.(l + v); n.l + n.v would bring their rounding into |l + v|, which is small where l is near -v
+    float along;   // n.(l + v); n.l + n.v would add their rounding to |l + v|, which is small where l is near -v
     float length2; // 0 where l = -v
 };
 
@@ -22,7 +22,7 @@ HalfSum halfSum(vec3 n, vec3 toLight, vec3 toViewer)
     return HalfSum(across, across2, along, length2);
 }
 
-// The same of two directions along a half vector.
+// The same for a half vector: both directions are h.
 HalfSum halfSumAlong(vec3 n, vec3 h)
 {
     return halfSum(n, h, h);
@@ -35,9 +35,9 @@ float halfCosine(HalfSum h)
     return cosine;
 }
 
-// GGX distribution of normals, of alpha squared. Source: Walter 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33,
+// GGX distribution of normals. Source: Walter 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 33,
 // rewritten as alpha^2 / (pi t^2) with t = alpha^2 (n.h)^2 + |n x h|^2: 1 - (n.h)^2 would cancel near the peak.
-// `scale` is ggxScale().
+// `alpha2`: alpha squared; `scale`: ggxScale().
 float distributionGgx(float alpha2, float scale, HalfSum h)
 {
     if (!(h.along > 0.0)) return 0.0;
@@ -46,7 +46,7 @@ float distributionGgx(float alpha2, float scale, HalfSum h)
     return d;
 }
 
-// The alpha^2 / pi of the distribution, which is the same for every light.
+// The factor alpha^2 / pi of the distribution, the same for every light.
 float ggxScale(float alpha2)
 {
     precise float scale = alpha2 * kInversePi;
@@ -71,8 +71,8 @@ float smithLength(float alpha2, float cosine)
     return q;
 }
 
-// The same for a direction whose alpha is that along its own projection on the surface: its components t and b along tangent
-// and bitangent give alpha^2 (1 - c^2) = (alpha x t)^2 + (alpha y b)^2, without a division. Source: Heitz 2014, eq. 80.
+// The same for an anisotropic lobe, with the alpha along the direction's projection on the surface: its components t
+// and b along tangent and bitangent give alpha^2 (1 - c^2) = (alpha x t)^2 + (alpha y b)^2. Source: Heitz 2014, eq. 80.
 float smithLengthAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 direction)
 {
     precise float cosine = dot(n, direction);
@@ -85,7 +85,7 @@ float smithLengthAnisotropic(vec2 alpha, vec3 n, vec3 tangent, vec3 direction)
 // Where h = n the projection has no direction, and the result is the mean of both squares.
 float alpha2Along(vec2 alpha, vec3 n, vec3 tangent, HalfSum h)
 {
-    // An angle of 1e-15 is far below the rounding of h, and its square still far above the least number of fp32.
+    // An angle of 1e-15 is far below the rounding of h, and its square still far above the smallest fp32 number.
     const float kNoDirection = 1e-30;
     precise vec2 parts = vec2(dot(h.across, tangent), dot(h.across, cross(n, tangent)));
     precise float length2 = dot(parts, parts);
@@ -103,9 +103,9 @@ float visibilitySeparable(float cosineLight, float lengthLight, float cosineView
     return v;
 }
 
-// G / (4 n.l n.v) where G1 depends on the angle to the half vector instead of the normal, as one well-known course handout has
-// it. Gains energy at grazing angles. Nothing cancels the cosines here; n.v is held to 1e-6 as in the handout, n.l to a value
-// that only keeps D G / (4 n.l n.v) finite. cosineHalf is l.h = v.h.
+// G / (4 n.l n.v) where G1 depends on the angle to the half vector instead of the normal, as in a well-known course
+// handout. Gains energy at grazing angles. Nothing cancels the cosines here; n.v is clamped to 1e-6 as in the handout,
+// n.l to a value that only keeps D G / (4 n.l n.v) finite. cosineHalf is l.h = v.h.
 float visibilityHalfVector(float alpha2, float cosineLight, float cosineView, float cosineHalf)
 {
     if (!(cosineHalf > 0.0)) return 0.0;
@@ -133,9 +133,9 @@ float squareRemainder(float x, float square)
     return remainder;
 }
 
-// Fresnel reflectance of a smooth dielectric for unpolarised light; ior is n2/n1, cosine the one between light and half
-// vector. Source: Cook and Torrance 1982; g - c is taken as (ior - 1)(ior + 1) / (g + c), which keeps its digits near ior = 1.
-// Into a thinner medium g^2 = c^2 + ior^2 - 1 cancels at the critical angle, and F falls there like the root of it.
+// Fresnel reflectance of a smooth dielectric for unpolarised light; ior is n2/n1, cosine that between light and half
+// vector. Source: Cook and Torrance 1982; g - c is computed as (ior - 1)(ior + 1) / (g + c), accurate near ior = 1.
+// Into a thinner medium g^2 = c^2 + ior^2 - 1 cancels at the critical angle, where F falls like its root.
 float fresnelDielectric(float ior, float cosine)
 {
     precise float c = abs(cosine);
@@ -158,8 +158,8 @@ float fresnelDielectric(float ior, float cosine)
     return f;
 }
 
-// Schlick's approximation from f0 to f90 = f0 + rise. Source: Schlick 1994, "An Inexpensive BRDF Model for Physically-based
-// Rendering".
+// Schlick's approximation from f0 to f90 = f0 + rise. Source: Schlick 1994, "An Inexpensive BRDF Model for
+// Physically-based Rendering".
 vec3 fresnelSchlick(vec3 f0, vec3 rise, float cosine)
 {
     precise float m = 1.0 - cosine;
@@ -169,8 +169,8 @@ vec3 fresnelSchlick(vec3 f0, vec3 rise, float cosine)
     return f;
 }
 
-// x^exponent for x in 0..1, of which 1 - x^2 is known with more digits than x: ln x = -atanh(r) with r = (1 - x^2)/(1 + x^2),
-// whose series needs five terms where x is near 1 (the next one is below 1e-9 of the sum). 0^0 = 1.
+// x^exponent for x in 0..1, given 1 - x^2 with more digits than x has: ln x = -atanh(r) with r = (1 - x^2)/(1 + x^2),
+// whose series needs five terms where x is near 1 (the next is below 1e-9 of the sum). 0^0 = 1.
 float powerNearOne(float x, float oneMinusX2, float exponent)
 {
     if (!(exponent > 0.0)) return 1.0;
@@ -183,8 +183,8 @@ float powerNearOne(float x, float oneMinusX2, float exponent)
     return power;
 }
 
-// The highlight of Blinn-Phong, (n.h)^p. Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures".
-// 1 - (n.h)^2 = |n x h|^2 keeps the digits that a large exponent multiplies.
+// Blinn-Phong highlight (n.h)^p. Source: Blinn 1977, "Models of Light Reflection for Computer Synthesized Pictures". 1
+// - (n.h)^2 = |n x h|^2 keeps the digits that a large exponent multiplies.
 float blinnPhongLobe(float exponent, HalfSum h)
 {
     precise float cosine = clamp(h.along / sqrt(h.length2), 0.0, 1.0);

@@ -1,20 +1,20 @@
-// What a surface reflects of light that is the same over each of its lobes: the radiance towards the viewer is the sum of
-// these shares times what enters, what falls on the surface, and what each lobe sees.
+// Reflectance of a surface under illumination that is uniform over each of its lobes: radiance towards the viewer is
+// the sum of these weights times the entering irradiance, the irradiance on the surface, and the radiance on each lobe.
 #pragma once
 #include "lib/reflectance/lobes.glsl"
 #include "lib/reflectance/mirrors.glsl"
 
 struct EvenShares {
-    vec3 ofEntering;   // of the irradiance that enters the surface, around the horizon too where it wraps
-    vec3 ofIrradiance; // of the irradiance on the surface, besides
-    vec3 ofLobe;       // of the radiance that its lobe sees; 0 where it has none
+    vec3 ofEntering;   // of the irradiance that enters the surface, including wrapped light around the horizon
+    vec3 ofIrradiance; // of the irradiance on the surface, in addition
+    vec3 ofLobe;       // of the radiance incident on its lobe; 0 without a lobe
 #if HAS_CLEARCOAT
     vec3 ofCoat;
 #endif
 };
 
 #if HAS_MIRRORS && HAS_GGX_MODELS
-// Fresnel's factor itself as far as the lobe is a mirror, in place of what the table has between its places.
+// Blends the table's value towards Fresnel's factor by the mirror weight, which is more accurate than interpolation.
 vec3 towardsMirror(SeenSurface seen, vec3 reflected)
 {
     float share = mirrorShare(lobeAlpha(seen.surface));
@@ -24,7 +24,7 @@ vec3 towardsMirror(SeenSurface seen, vec3 reflected)
 #endif
 
 #if HAS_GGX_MODELS
-// What a dielectric's lobe reflects of even light, by parabolas through three indices of refraction on one side of 1.
+// Reflectance of a dielectric lobe under uniform illumination, by parabolas through three indices on one side of 1.
 float reflectedByDielectric(SeenSurface seen)
 {
     float ior = seen.surface.iorOrF90;
@@ -34,7 +34,7 @@ float reflectedByDielectric(SeenSurface seen)
     precise float t = number - float(first);
     precise vec3 shares = vec3(0.5 * (t - 1.0) * (t - 2.0), t * (2.0 - t), 0.5 * t * (t - 1.0));
     vec2 place = vec2(lobeColumn(ior, clamp(seen.nv, 0.0, 1.0)), sqrt(clamp(lobeAlpha(seen.surface), 0.0, 1.0)));
-    // Below index 1 nothing is reflected at 1; what the table holds there is for those above.
+    // Below index 1 the reflectance is 0 at 1; the table's value there is for indices above.
     int count = !isDenser && first == LOBE_TABLE_IOR_ONE - 2 ? 2 : 3;
     precise float reflected = 0.0;
     for (int i = 0; i < count; ++i)
@@ -87,7 +87,7 @@ void addTeachingModels(SeenSurface seen, const bool fromAllAround, inout EvenSha
     if (!hasLobe(seen)) return;
 #if HAS_BLINN_PHONG
     if (seen.surface.model == MODEL_BLINN_PHONG) {
-        // The table holds it times p + 2, which hardly changes with p.
+        // The table holds the reflectance times p + 2, which hardly changes with p.
         precise float reflected =
             lobeTexel(seen.nv, lobeAlpha(seen.surface), LOBE_LAYER_GGX).b / (seen.surface.parameter + 2.0);
         precise vec3 highlight = seen.surface.specular * reflected;
@@ -105,8 +105,8 @@ void addTeachingModels(SeenSurface seen, const bool fromAllAround, inout EvenSha
 #endif
 }
 
-// `fromAllAround`: of an environment, not of a light's surface: lobes may be mirrors, and what they lose between
-// microfacets comes back where that is asked for.
+// `fromAllAround`: light of an environment instead of an area light: lobes may be mirrors, and energy lost between
+// microfacets is compensated if requested.
 EvenShares evenShares(SeenSurface seen, const bool fromAllAround)
 {
     EvenShares shares;

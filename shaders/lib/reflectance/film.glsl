@@ -1,10 +1,8 @@
-// What a thin film makes of a surface's reflectance: light that both of its sides reflect interferes (docs/iridescence.md).
-// Source: Belcour and Barla 2017, "A Practical Extension to Microfacet Theory for the Modeling of Varying Iridescence";
-// KHR_materials_iridescence.
+// Reflectance of a surface with a thin film: light reflected by the film's two sides interferes (docs/iridescence.md).
 #pragma once
 #include "lib/reflectance/brdf.glsl"
 
-// Light that has gone back and forth m times is a wave in the phase of m ways; these are summed.
+// Number of summed interference terms: light reflected back and forth m times has the phase of m path differences.
 const int kFilmWaves = 4;
 
 // Linear sRGB from CIE XYZ. Source: IEC 61966-2-1.
@@ -12,16 +10,16 @@ const mat3 kRgbFromXyz = mat3(3.2404542, -0.9692660, 0.0556434,
                               -1.5371385, 1.8760108, -0.2040259,
                               -0.4985314, 0.0415560, 1.0572252);
 
-// What a reflectance of cos(2 pi way / wavelength) looks like, by channel: 1 for a way of 0, since what is the same for all
-// wavelengths has no colour. The eye's sensitivities are Gaussians of the wave number, x two of them; so are their Fourier
-// transforms. Source: Belcour and Barla 2017, supplemental code.
+// Colour of a reflectance of cos(2 pi way / wavelength), with `way` the path difference: 1 by channel for a way of 0,
+// since a constant spectrum has no colour. The eye's sensitivities are Gaussians of the wave number, x two of them; so
+// are their Fourier transforms. Source: Belcour and Barla 2017, supplemental code.
 vec3 colorOfWave(float wayMicrometres)
 {
     const vec4 kWaveNumbers = vec4(1.6810, 2.2399, 1.7953, 2.2084); // x, x, y, z, in 1/micrometre
     const vec4 kHalfVariances = vec4(4.3278e-3, 4.5282e-3, 9.3046e-3, 6.6121e-3);
-    const float kShareOfSecond = 0.1537978; // of x: its height times its width
+    const float kShareOfSecond = 0.1537978; // weight in x: height times width
     precise vec4 cycles = wayMicrometres * kWaveNumbers;
-    precise vec4 turns = cycles - floor(cycles + 0.5); // drivers' cosines are for small angles
+    precise vec4 turns = cycles - floor(cycles + 0.5); // drivers' cosines are accurate for small angles
     precise float frequency = 2.0 * kPi * wayMicrometres;
     precise vec4 waves = cos(2.0 * kPi * turns) * exp(-(frequency * frequency) * kHalfVariances);
     precise vec3 xyz = vec3(waves.x + kShareOfSecond * (waves.y - waves.x), waves.z, waves.w);
@@ -29,15 +27,15 @@ vec3 colorOfWave(float wayMicrometres)
     return color;
 }
 
-// Of a surface that reflects f0 at normal incidence without the film. `cosine` is that of the angle of incidence, > 0.
+// Reflectance with the film; f0: at normal incidence without it; `cosine`: that of the angle of incidence, > 0.
 vec3 filmReflectance(vec3 f0, float cosine, float ior, float thicknessMicrometres)
 {
     precise float inverse = 1.0 / ior;
     precise float inside2 = 1.0 - inverse * inverse * (1.0 - cosine * cosine);
-    precise float inside = sqrt(max(inside2, 0.0)); // of the angle in the film
+    precise float inside = sqrt(max(inside2, 0.0)); // cosine of the angle in the film
     precise float above = (ior - 1.0) / (ior + 1.0);
     float outer = fresnelSchlick(vec3(above * above), vec3(1.0 - above * above), cosine).x;
-    // The amplitude's (n2 - n3) / (n2 + n3) for the index n3 = (1 + sqrt(f0)) / (1 - sqrt(f0)), which has no bound.
+    // Amplitude (n2 - n3) / (n2 + n3) for the index n3 = (1 + sqrt(f0)) / (1 - sqrt(f0)), which may be infinite.
     precise vec3 root = sqrt(clamp(f0, vec3(0.0), vec3(1.0)));
     precise vec3 slow = ior * (1.0 - root);
     precise vec3 below = (slow - (1.0 + root)) / (slow + (1.0 + root));
@@ -45,7 +43,7 @@ vec3 filmReflectance(vec3 f0, float cosine, float ior, float thicknessMicrometre
     precise float passed = 1.0 - outer;
     precise vec3 both = outer * inner;
     precise vec3 returned = (passed * passed) * inner / max(1.0 - both, vec3(1e-6));
-    // Reflection at a denser medium turns the phase by half a wave; so it does where only rounding tells the indices apart.
+    // Reflection at a denser medium shifts the phase by half a wave; also if the indices differ by rounding only.
     precise vec3 ratio = sqrt(both) * (2.0 * vec3(greaterThan(below, vec3(1e-5))) - 1.0);
     precise float way = 2.0 * ior * thicknessMicrometres * inside;
     precise vec3 reflected = vec3(outer) + returned;
@@ -54,5 +52,5 @@ vec3 filmReflectance(vec3 f0, float cosine, float ior, float thicknessMicrometre
         amplitude *= ratio;
         reflected += 2.0 * amplitude * colorOfWave(float(m) * way);
     }
-    return clamp(reflected, vec3(0.0), vec3(1.0)); // sRGB lacks some of these colours
+    return clamp(reflected, vec3(0.0), vec3(1.0)); // some of these colours are outside sRGB
 }

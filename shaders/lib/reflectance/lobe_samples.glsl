@@ -1,4 +1,4 @@
-// Samples of what a surface reflects: by the cosine, by its lobe and by its coat, and how densely they lie.
+// Samples of a surface's reflection by the cosine, by its lobe and by its coat, and their densities.
 #pragma once
 #include "lib/reflectance/reflectance.glsl"
 #include "lib/reflectance/visible_facets.glsl"
@@ -12,7 +12,7 @@ vec3 cosineDirection(vec2 point, vec3 normal, vec3 tangent)
 }
 
 #if HAS_GGX_MODELS || HAS_CLEARCOAT
-// The density of visibleReflection(), 1/sr: G1(v) D / (4 n.v), with the length that Smith's G1 compares with n.v.
+// Density of visibleReflection(), 1/sr: G1(v) D / (4 n.v); `viewerLength`: that of Smith's G1 for n.v.
 float visibleDensity(float distribution, float nv, float viewerLength)
 {
     precise float density = distribution / (2.0 * (nv + viewerLength));
@@ -30,7 +30,7 @@ vec3 blinnReflection(vec2 point, float exponent, vec3 toViewer, vec3 normal, vec
     precise vec3 local = vec3(sine * cos(angle), sine * sin(angle), cosine);
     vec3 half_ = aroundNormal(local, normal, tangent);
     precise float along = dot(toViewer, half_);
-    if (!(along > 0.0)) return vec3(0.0); // the viewer sees it from behind
+    if (!(along > 0.0)) return vec3(0.0); // seen from behind
     precise vec3 reflected = 2.0 * along * half_ - toViewer;
     return safeNormalize(reflected, normal);
 }
@@ -70,7 +70,7 @@ vec3 coatDirection(vec2 point, SeenSurface seen)
 }
 #endif
 
-// The vector that lobes with two alphas are sampled along; any in the plane for others.
+// The tangent along which anisotropic lobes are sampled; any in the plane for others.
 vec3 sampledTangent(SeenSurface seen)
 {
 #if HAS_TANGENT_FRAME
@@ -79,7 +79,7 @@ vec3 sampledTangent(SeenSurface seen)
     return anyPerpendicular(seen.surface.normalLS);
 }
 
-// How densely one sample each of the cosine, the lobe and the coat lie around a direction, 1/sr.
+// Sum of the densities of one sample each of the cosine, the lobe and the coat in a direction, 1/sr.
 float surfaceDensity(SeenSurface seen, vec3 toLight)
 {
     precise float density = max(dot(seen.surface.normalLS, toLight), 0.0) * kInversePi;

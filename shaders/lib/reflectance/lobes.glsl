@@ -1,4 +1,4 @@
-// What lobes reflect of even light, by the table renderer/frame/LobeTable.h.
+// Reflectance of lobes under uniform illumination, from the table of renderer/frame/LobeTable.h.
 #pragma once
 #include "shared/lobe_table.h"
 #include "lib/reflectance/mirrors.glsl"
@@ -22,7 +22,7 @@ vec4 lobeTexel(float cosine, float alpha, int layer)
     return lobeTexelAt(place, layer);
 }
 
-// Of a lobe that is as wide as the surface's; one alpha in place of two, where the table has no more.
+// Alpha of an isotropic GGX lobe as wide as the surface's: the table has only one alpha.
 float lobeAlpha(Surface surface)
 {
 #if HAS_BLINN_PHONG
@@ -33,7 +33,7 @@ float lobeAlpha(Surface surface)
 #endif
 #if HAS_TANGENT_FRAME
     if (isAnisotropic(surface)) {
-        // Slopes of facets vary by the square of alpha, so that this is their mean over all azimuths.
+        // The variance of microfacet slopes is proportional to alpha^2, so this is its mean over all azimuths.
         precise float mean2 = 0.5 * (surface.alpha * surface.alpha + surface.alphaBitangent * surface.alphaBitangent);
         precise float mean = sqrt(mean2);
         return mean;
@@ -44,9 +44,9 @@ float lobeAlpha(Surface surface)
 
 #if HAS_GGX_MODELS
 #if HAS_ANISOTROPY
-// lobeShares() of two alphas, by some of the facets that the viewer sees: no table holds both. How far off they are stands in
-// docs/environment.md. The golden ratio spreads points evenly; the steeper facets are, the more of them stand for as much,
-// since those vary most.
+// lobeShares() of an anisotropic lobe, by sampling microfacets that are visible to the viewer: no table holds two
+// alphas. docs/environment.md states the error. The golden ratio spreads points evenly; steep microfacets, which vary
+// most, are sampled more densely.
 vec2 sharesOfTwoAlphas(SeenSurface seen)
 {
     const int kFacets = 24;
@@ -61,7 +61,7 @@ vec2 sharesOfTwoAlphas(SeenSurface seen)
         precise float nl = dot(surface.normalLS, toLight);
         if (!(nl > 0.0)) continue;
         Directions directions = directionsOn(seen, toLight, nl);
-        // D V n.l over the density of the facets, G1(v) D / (4 n.v), and of the points.
+        // D V n.l over the densities of the microfacets, G1(v) D / (4 n.v), and of the points.
         precise float share = 4.0 * inward * visibilityOfMetallicRoughness(seen, directions) * nl
                               * (seen.nv + seen.viewerLength);
         precise float rise = 1.0 - directions.lh, rise2 = rise * rise;
@@ -72,7 +72,7 @@ vec2 sharesOfTwoAlphas(SeenSurface seen)
 }
 #endif
 
-// What a lobe of metallic_roughness reflects of even light: x for each f0, y for each fresnelRise.
+// Reflectance of a metallic_roughness lobe under uniform illumination: x per f0, y per fresnelRise.
 vec2 lobeShares(SeenSurface seen)
 {
 #if HAS_ANISOTROPY
@@ -83,14 +83,14 @@ vec2 lobeShares(SeenSurface seen)
 #endif
 
 #if ENVIRONMENT_COMPENSATION && HAS_GGX_MODELS
-// Light that meets a rough lobe of metallic_roughness of one alpha more than once, which its BRDF loses: the part that comes
-// out again, to all sides alike, of the irradiance. Source: Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for Real-Time
-// Image-based Lighting".
+// Compensation for multiple scattering in a rough, isotropic lobe of metallic_roughness: the fraction of the irradiance
+// that its BRDF loses and that leaves diffusely. Source: Fdez-Aguera 2019, "A Multiple-Scattering Microfacet Model for
+// Real-Time Image-based Lighting".
 vec3 lostToBounces(SeenSurface seen)
 {
     if (SPECULAR_OFF != 0 || !HAS_METALLIC(seen.surface.model) || !(seen.nv > 0.0)) return vec3(0.0);
 #if HAS_TANGENT_FRAME
-    if (isAnisotropic(seen.surface)) return vec3(0.0); // the table knows one alpha
+    if (isAnisotropic(seen.surface)) return vec3(0.0); // the table has one alpha
 #endif
 #if HAS_MIRRORS
     if (isMirror(seen)) return vec3(0.0);

@@ -1,6 +1,6 @@
-// Lobes that are mirrors in light from all around: GGX lobes of the least alpha, which roughness 0 becomes. They reflect
-// the one direction that mirrors the viewer, by Fresnel's factor. Lights keep a lobe of that alpha, since a mirror shows no
-// light without a surface.
+// Mirror lobes under environment light: GGX lobes of the minimum alpha, from roughness 0. They reflect only the
+// direction that mirrors the viewer, by Fresnel's factor. Under lights they stay lobes of that alpha, since a mirror
+// would not show a light without a surface.
 #pragma once
 #include "shared/environment.h"
 #include "lib/reflectance/reflectance.glsl"
@@ -11,7 +11,7 @@ vec3 mirrorDirection(vec3 normal, vec3 toViewer)
     return mirrored;
 }
 
-// How much of a lobe is a mirror: all of one of the least alpha, nothing from that of the first filtered level on.
+// Mirror weight of a lobe: 1 at the minimum alpha, 0 from that of the first filtered level on.
 float mirrorShare(float alpha)
 {
     if (alpha <= ALPHA_MIN) return 1.0;
@@ -20,7 +20,7 @@ float mirrorShare(float alpha)
 }
 
 #if HAS_MIRRORS
-// Whether the surface's lobe is one.
+// Whether the surface's lobe is a mirror.
 bool isMirror(SeenSurface seen)
 {
 #if HAS_GGX_MODELS
@@ -36,7 +36,7 @@ bool isMirror(SeenSurface seen)
 }
 
 #if HAS_GGX_MODELS
-// What it reflects of the radiance from there, before what the layers above leave of it.
+// Reflectance of a mirror lobe, without the layers above.
 vec3 mirrorReflectance(SeenSurface seen)
 {
     if (HAS_METALLIC(seen.surface.model)) return fresnelSchlick(seen.f0, seen.fresnelRise, seen.nv);

@@ -1,5 +1,5 @@
-// The BRDF times cosine of a surface for one light direction: a function per model, chosen by reflection(), and the
-// layers over the models, once for all techniques.
+// BRDF times cosine of a surface for one light direction: a function per model, selected by reflection(), and the
+// layers above the models, for all techniques.
 #pragma once
 #include "lib/reflectance/brdf.glsl"
 #include "lib/maths/octahedral.glsl"
@@ -11,7 +11,7 @@
 #define SPECULAR_OFF 0
 #endif
 
-// The factors of the specular lobe, kept apart for the views that show them.
+// The factors of the specular lobe, kept separate for their debug views.
 struct SpecularTerms {
     float d;  // distribution of normals, 1/sr; the whole highlight of blinn_phong
     float v;  // G / (4 n.l n.v)
@@ -24,7 +24,7 @@ bool isAnisotropic(Surface surface)
 {
     if (HAS_TWO_ALPHAS(surface.model)) return true;
 #if HAS_ANISOTROPY
-    // Equal alphas take the isotropic functions, so that other materials keep their bits in a scene with anisotropic ones.
+    // Equal alphas use the isotropic functions, so that anisotropic materials change no bit of isotropic ones.
     return HAS_ANISOTROPY_STRENGTH(surface.model) && surface.alphaBitangent != surface.alpha;
 #else
     return false;
@@ -32,8 +32,8 @@ bool isAnisotropic(Surface surface)
 }
 #endif
 
-// A surface as its viewer sees it: what is the same for every light. It is prepared before the loop over lights, because
-// not every driver's compiler moves work out of a loop.
+// A surface and a viewer: values that are the same for every light. They are computed before the loop over lights,
+// because not every driver's compiler moves work out of a loop.
 struct SeenSurface {
     Surface surface;
     vec3 toViewer; // unit
@@ -41,10 +41,10 @@ struct SeenSurface {
 #if HAS_GGX_MODELS
     float alpha2;
     float scale;        // ggxScale()
-    float viewerLength; // Smith's, of models whose masking-shadowing is directional or has one alpha
-    vec3 f0;            // of models that are metallic
+    float viewerLength; // Smith length of the viewer, for directional masking-shadowing or a single alpha
+    vec3 f0;            // of metallic models
     vec3 fresnelRise;   // from f0 to f90
-    vec3 diffuse;       // what they reflect where F is 0, BRDF in 1/sr
+    vec3 diffuse;       // diffuse BRDF of metallic models where F is 0, 1/sr
 #endif
 #if HAS_CLEARCOAT
     vec3 coatNormalLS;
@@ -53,7 +53,7 @@ struct SeenSurface {
 #endif
 };
 
-// The Smith length of a direction with the cosine to the normal.
+// Smith length of a direction; `cosine`: to the normal.
 float lobeLength(Surface surface, vec3 direction, float cosine)
 {
 #if HAS_TANGENT_FRAME
@@ -98,7 +98,7 @@ SeenSurface seenSurface(Surface surface, vec3 toViewer)
     return seen;
 }
 
-// Whether the viewer sees a lobe of its model, the coat's aside.
+// Whether the model has a lobe that the viewer sees, not counting the coat's.
 bool hasLobe(SeenSurface seen)
 {
 #if HAS_GLOSSY_MODELS
@@ -108,11 +108,11 @@ bool hasLobe(SeenSurface seen)
 #endif
 }
 
-// A light and a viewer seen from a surface.
+// Directions to a light and a viewer from a surface.
 struct Directions {
     vec3 toLight; // unit
     HalfSum h;
-    float nl; // cosines; n.l is 0 for a light below the horizon, where a model's functions must be finite all the same
+    float nl; // cosines; n.l is 0 for a light below the horizon, where a model's functions must still be finite
     float nv;
     float lh;     // takes its grazing value where l = -v, so that the diffuse weight 1 - F stays continuous
     bool hasLobe; // both above the horizon, and not opposite
@@ -136,14 +136,14 @@ float lobeDistribution(SeenSurface seen, HalfSum h)
     return distributionGgx(seen.alpha2, seen.scale, h);
 }
 
-// Of metallic_roughness: height-correlated, directional where anisotropic (KHR_materials_anisotropy).
+// Visibility of metallic_roughness: height-correlated, directional if anisotropic (KHR_materials_anisotropy).
 float visibilityOfMetallicRoughness(SeenSurface seen, Directions directions)
 {
     float lightLength = lobeLength(seen.surface, directions.toLight, directions.nl);
     return visibilityCorrelated(directions.nl, lightLength, directions.nv, seen.viewerLength);
 }
 
-// Of the teaching models: separable, by the surface's masking-shadowing option.
+// Visibility of the teaching models: separable, by the surface's masking-shadowing option.
 float visibilityOfMicrofacet(SeenSurface seen, Directions directions)
 {
     Surface surface = seen.surface;
@@ -175,8 +175,8 @@ float strongestSheen(Surface surface)
     return max(max(surface.sheenColor.r, surface.sheenColor.g), surface.sheenColor.b);
 }
 
-// What a sheen leaves of the layers below: 1 minus the directional albedo of a white sheen times the sheen's brightest
-// channel. Source: KHR_materials_sheen, "Albedo-scaling technique".
+// Fraction of the layers below that a sheen leaves: 1 minus the directional albedo of a white sheen times the sheen's
+// brightest channel. Source: KHR_materials_sheen, "Albedo-scaling technique".
 float shareUnderSheen(Surface surface, Directions directions)
 {
     precise float albedo =
@@ -185,7 +185,7 @@ float shareUnderSheen(Surface surface, Directions directions)
     return share;
 }
 
-// The same of light that arrives as steeply as it leaves, or whose direction is no matter.
+// The same for light at the viewer's angle, or whose direction does not matter.
 float viewerShareUnderSheen(SeenSurface seen)
 {
     precise float albedo = sheenAlbedo(seen.surface.sheenAlpha, max(seen.nv, 0.0));
@@ -208,10 +208,10 @@ vec3 underSheen(Surface surface, vec3 brdf, Directions directions)
 }
 #endif
 
-// The reflection of light by a model; from below the horizon with n.l = 0.
+// Reflection of light by a model; lights below the horizon have n.l = 0.
 struct Reflection {
     vec3 brdfCosine;     // BRDF times cosine, 1/sr: reflected radiance per irradiance at normal incidence
-    SpecularTerms terms; // 0 where it has no lobe there
+    SpecularTerms terms; // 0 without a lobe
 #if HAS_ENTERING_LIGHT
     vec3 diffuse; // BRDF of the light that enters the surface, 1/sr
 #endif
@@ -222,7 +222,7 @@ struct Reflection {
 #define REFLECTION(brdfCosine, terms, diffuse) Reflection(brdfCosine, terms)
 #endif
 
-// Source: Lambert 1760, "Photometria". k_d without 1/pi, as the teaching models have it.
+// Source: Lambert 1760, "Photometria". k_d without 1/pi, as in the teaching models.
 Reflection lambert(Surface surface, Directions directions)
 {
     precise vec3 brdfCosine = surface.albedo * directions.nl;
@@ -235,13 +235,13 @@ Reflection blinnPhong(Surface surface, Directions directions)
     SpecularTerms terms = kNoTerms;
     if (directions.hasLobe) terms.d = blinnPhongLobe(surface.parameter, directions.h);
     precise float highlight = SPECULAR_OFF != 0 ? 0.0 : terms.d;
-    precise vec3 brdfCosine = surface.albedo * directions.nl + surface.specular * highlight; // which takes no cosine
+    precise vec3 brdfCosine = surface.albedo * directions.nl + surface.specular * highlight; // no cosine
     return REFLECTION(brdfCosine, terms, surface.albedo);
 }
 
 #if HAS_GGX_MODELS
-// microfacet and microfacet_anisotropic; `d` is lobeDistribution(). Source: Cook and Torrance 1982 with the D, G and F of
-// Walter et al. 2007.
+// microfacet and microfacet_anisotropic; `d` is lobeDistribution(). Source: Cook and Torrance 1982 with the D, G and F
+// of Walter et al. 2007.
 Reflection microfacet(SeenSurface seen, Directions directions, float d)
 {
     Surface surface = seen.surface;
@@ -276,7 +276,7 @@ Reflection metallicRoughness(SeenSurface seen, Directions directions, float d)
 Reflection reflection(SeenSurface seen, Directions directions)
 {
 #if HAS_GGX_MODELS
-    // Once for all, since rasterisers that mask lanes take every branch.
+    // Computed once for all models, since rasterisers that mask lanes take every branch.
     float d = directions.hasLobe ? lobeDistribution(seen, directions.h) : 0.0;
 #endif
 #if HAS_BLINN_PHONG
@@ -337,8 +337,8 @@ vec3 layeredBrdfCosine(SeenSurface seen, vec3 toLight)
 }
 
 #if HAS_SUBSURFACE_PASSAGE
-// The same of light from below the horizon that has passed through, as through a plate: it leaves at the angle at which
-// it entered on the other side.
+// The same for light from below the horizon that is transmitted, as through a plate: it leaves at the angle at which it
+// entered on the other side.
 vec3 passingBrdfCosine(SeenSurface seen, vec3 toLight)
 {
     precise float cosine = dot(seen.surface.normalLS, toLight);
@@ -351,7 +351,7 @@ vec3 passingBrdfCosine(SeenSurface seen, vec3 toLight)
 }
 #endif
 
-// Radiance towards the viewer without any light. Source: KHR_materials_clearcoat, "Emission": it lies below the coat.
+// Emitted radiance towards the viewer. Source: KHR_materials_clearcoat, "Emission": it lies below the coat.
 vec3 emittedRadiance(SeenSurface seen)
 {
     precise vec3 emitted = seen.surface.emission;

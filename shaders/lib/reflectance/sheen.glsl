@@ -1,4 +1,4 @@
-// The sheen of cloth, as KHR_materials_sheen has it. Source: Conty Estevez and Kulla 2017, "Production Friendly Microfacet
+// Sheen of cloth, as in KHR_materials_sheen. Source: Conty Estevez and Kulla 2017, "Production Friendly Microfacet
 // Sheen BRDF": the distribution "Charlie" and fits of its masking-shadowing. alpha is the square of the perceptual
 // roughness.
 #pragma once
@@ -36,7 +36,7 @@ float charlieLambda(float alpha, float cosine)
     return lambda;
 }
 
-// G / (4 n.l n.v). Both cosines are held to 1e-6, below which the fits mean nothing and D G / (4 n.l n.v) would leave fp32.
+// G / (4 n.l n.v). Both cosines are clamped to 1e-6: below, the fits are invalid and D G / (4 n.l n.v) leaves fp32.
 float visibilityCharlie(float alpha, float cosineLight, float cosineView)
 {
     precise float masking = 1.0 + charlieLambda(alpha, cosineLight) + charlieLambda(alpha, cosineView);
@@ -44,7 +44,7 @@ float visibilityCharlie(float alpha, float cosineLight, float cosineView)
     return v;
 }
 
-// The directional albedo of a white sheen, at most 1: a fit of the integral of the two functions above, made for this
+// Directional albedo of a white sheen, at most 1: a fit of the integral of the two functions above, made for this
 // engine. ln E is a polynomial in x = n.l / r and r, the perceptual roughness; wrong by at most 0.035 for r from 0.05
 // on (Sheen.theFittedAlbedoIsNearTheIntegral).
 float sheenAlbedo(float alpha, float cosine)

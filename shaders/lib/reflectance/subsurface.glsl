@@ -1,5 +1,5 @@
-// Light that enters a surface and leaves it elsewhere (scenes/Subsurface.h, docs/skin.md), as far as each light does so
-// by itself.
+// Subsurface scattering as far as it is computed per light (scenes/Subsurface.h, docs/skin.md): wrapped and transmitted
+// light.
 #pragma once
 #include "shared/slots.h"
 #include "shared/subsurface.h"
@@ -12,7 +12,7 @@ layout(std140, binding = UNIFORM_SUBSURFACE) uniform SubsurfaceBlock
 };
 #endif
 
-// The part of an albedo that takes effect before light spreads, or after it. The powers 0 and 1 are exact.
+// The part of an albedo applied before diffusion, or after it. The powers 0 and 1 are exact.
 vec3 powerOf(vec3 albedo, float power)
 {
     if (power == 0.0) return vec3(1.0);
@@ -26,7 +26,7 @@ bool letsLightThrough(Surface surface)
     return subsurfaces[surface.subsurface].absorption.a != 0.0;
 }
 
-// The share of light, by channel, that is left of it after so many metres inside.
+// Transmittance, by channel, after this way inside.
 vec3 shareAfter(Surface surface, float metres)
 {
     precise vec3 share = exp(-subsurfaces[surface.subsurface].absorption.rgb * metres);
@@ -35,9 +35,9 @@ vec3 shareAfter(Surface surface, float metres)
 #endif
 
 #if HAS_SUBSURFACE_WRAP
-// By how much (n.l + w) / (1 + w), at least 0, exceeds n.l, at least 0. Over all directions of light that is w pi more
-// than the pi of a cosine. Source: Green 2004, "Real-Time Approximations to Subsurface Scattering", GPU Gems, chapter
-// 16; with a w for each channel, the tint shows where n.l is low.
+// Excess of (n.l + w) / (1 + w), at least 0, over n.l, at least 0. Over all directions of light that adds w pi to the
+// pi of a cosine. Source: Green 2004, "Real-Time Approximations to Subsurface Scattering", GPU Gems, chapter 16; with a
+// w for each channel, the tint shows where n.l is low.
 vec3 wrappedExcess(Surface surface, float cosine)
 {
     vec3 wrap = subsurfaces[surface.subsurface].wrap.rgb;
@@ -46,8 +46,8 @@ vec3 wrappedExcess(Surface surface, float cosine)
     return excess;
 }
 
-// Shadows of wrapped light: how far above the surface a light is asked for, in metres. On a body of that radius the way
-// to a light below the horizon does not meet the body then, as far as a wrap of 0.85; what else is in the way hides it.
+// Height in metres above the surface at which shadow look-ups of wrapped light start. On a body of that radius the way
+// to a light below the horizon then misses the body, up to a wrap of 0.85; other casters in the way hide the light.
 float liftMetres(Surface surface, float cosine)
 {
     vec4 wrap = subsurfaces[surface.subsurface].wrap;

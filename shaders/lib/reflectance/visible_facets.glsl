@@ -1,4 +1,4 @@
-// The facets of a GGX lobe that a viewer sees.
+// Sampling of the visible microfacets of a GGX lobe.
 #pragma once
 #include "lib/reflectance/brdf.glsl"
 
@@ -8,7 +8,7 @@ vec3 aroundNormal(vec3 direction, vec3 normal, vec3 tangent)
     return turned;
 }
 
-// Where a microfacet that the viewer sees sends the viewer's ray. Source: Heitz 2018, "Sampling the GGX Distribution of
+// Reflection of the viewer's ray at a sampled visible microfacet. Source: Heitz 2018, "Sampling the GGX Distribution of
 // Visible Normals", listing 1.
 vec3 visibleReflection(vec2 point, vec2 alpha, vec3 toViewer, vec3 normal, vec3 tangent)
 {

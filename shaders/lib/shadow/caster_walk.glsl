@@ -1,10 +1,10 @@
-// Shadow rays: walks the tree of casters (shared/caster_tree.h) from a point to a light.
+// Shadow rays: traverses the tree of casters (shared/caster_tree.h) from a point to a light.
 //
-// A triangle hides the light where it crosses the ray between the two ends. One whose plane holds an end within rounding
-// hides nothing: fp32 cannot tell on which side of such a plane the end lies. The point's own triangle is one of them, so
-// the caller says whether that hides the light. Edges are decided in two coordinates across the ray, so that no ray slips
-// through between two triangles that share one (Woop, Benthin, Wald 2013, "Watertight Ray/Triangle Intersection"). Sides
-// do not count.
+// A triangle hides the light if it crosses the ray between the two ends. A triangle whose plane holds an end within
+// rounding hides nothing: fp32 cannot decide on which side of the plane the end lies. The point's own triangle is one
+// of these, so the caller decides whether that hides the light. Edges are tested in two coordinates across the ray, so
+// that no ray slips through between two triangles that share one (Woop, Benthin, Wald 2013, "Watertight Ray/Triangle
+// Intersection"). Triangles are two-sided.
 #pragma once
 #include "shared/slots.h"
 #include "shared/caster_tree.h"
@@ -17,14 +17,14 @@ layout(std140, binding = UNIFORM_CASTER_TREE) uniform CasterTreeBlock
 };
 layout(binding = TEXTURE_UNIT_SHADOWS) uniform usamplerBuffer casterTexels;
 
-// In casters' space (CS).
+// A ray in caster space (CS).
 struct ShadowRay {
     vec3 originCS;
-    vec3 toLightCS;        // all the way
+    vec3 toLightCS;        // from the origin to the light
     vec3 inverseToLightCS; // 1 / toLightCS, never infinite
     int longestAxis;       // of toLightCS
-    vec2 shear;            // how far it goes across that axis for a step along it
-    float originRounding;  // by how much rounding may move each end, in units of CS
+    vec2 shear;            // change across that axis per step along it
+    float originRounding;  // rounding error of each end, in units of CS
     float lightRounding;
 };
 
@@ -33,7 +33,7 @@ vec4 casterTexel(uint texel)
     return uintBitsToFloat(texelFetch(casterTexels, int(texel)));
 }
 
-// Turns the axes so that the longest one of the ray becomes z; they stay right-handed.
+// Permutes the axes so that the longest one of the ray becomes z; they stay right-handed.
 vec3 turned(vec3 v, int longestAxis)
 {
     return longestAxis == 0 ? v.yzx : longestAxis == 1 ? v.zxy : v;
@@ -46,7 +46,7 @@ vec3 positionCS(vec3 positionLS)
     return position;
 }
 
-// By how much fp32 may move a surface or a light against the casters, in units of CS.
+// fp32 position error of a surface or a light relative to the casters, in units of CS.
 float roundingAt(vec3 positionLS)
 {
     precise float metres = casterTree.rounding.x + casterTree.rounding.y * length(positionLS);
@@ -65,15 +65,15 @@ ShadowRay shadowRay(vec3 originLS, vec3 toLightCS, float lightRounding)
     vec3 ahead = turned(toLightCS, ray.longestAxis);
     precise vec2 shear = ahead.xy * (1.0 / ahead.z);
     ray.shear = shear;
-    // A ray across an axis misses the boxes beside it by far.
+    // Keeps the inverse finite: a ray across an axis still misses the boxes beside it by far.
     vec3 least = vec3(1e-18 * max(size.x, max(size.y, size.z)));
     precise vec3 inverse = 1.0 / mix(max(toLightCS, least), min(toLightCS, -least), lessThan(toLightCS, vec3(0.0)));
     ray.inverseToLightCS = inverse;
     return ray;
 }
 
-// Whether the ray may pass through a box. Rounding moves a plane's share of the ray by less than 2^-20 of itself, also
-// where a division is off by 2.5 of its last digits, as GLSL allows (Ize 2013, "Robust BVH Ray Traversal").
+// Whether the ray may pass through a box. The ray parameter of a plane has a relative rounding error below 2^-20, even
+// if a division is off by 2.5 of its last digits, as GLSL allows (Ize 2013, "Robust BVH Ray Traversal").
 bool meetsBox(ShadowRay ray, vec3 lowCS, vec3 highCS)
 {
     precise vec3 toLow = (lowCS - ray.originCS) * ray.inverseToLightCS;
@@ -86,7 +86,7 @@ bool meetsBox(ShadowRay ray, vec3 lowCS, vec3 highCS)
 }
 
 #if HAS_ALPHA_MASK
-// A coordinate of texels brought inside 0 .. size - 1.
+// Wraps a texel coordinate into 0 .. size - 1.
 int wrappedTexel(int at, int size, uint wrap)
 {
     if (wrap == CASTER_WRAP_CLAMP) return clamp(at, 0, size - 1);
@@ -105,8 +105,8 @@ float maskTexel(uvec4 mask, ivec2 at)
     return casterTexel(mask.x + (texel >> 2))[texel & 3u];
 }
 
-// Whether a caster with a mask is there, by the magnification filter of its texture: a ray has no size in texels.
-// `weights` are those of the corners.
+// Alpha test of a caster with a mask, by the magnification filter of its texture: a ray has no size in texels.
+// `weights`: barycentric.
 bool isSolid(uint triangle, vec3 weights, vec3 opacities)
 {
     vec4 texCoord01 = casterTexel(triangle + 3u);
@@ -116,7 +116,7 @@ bool isSolid(uint triangle, vec3 weights, vec3 opacities)
     precise vec2 texCoord =
         weights.x * texCoord01.xy + weights.y * texCoord01.zw + weights.z * uintBitsToFloat(last.xy);
     precise vec2 place = texCoord * vec2(mask.yz);
-    // Beyond, fp32 has no digits of a texel left.
+    // Beyond this, fp32 cannot resolve a texel.
     place = clamp(place, vec2(-1e9), vec2(1e9));
     precise float texel;
     if ((mask.w & CASTER_MASK_NEAREST) != 0u) {
@@ -135,20 +135,20 @@ bool isSolid(uint triangle, vec3 weights, vec3 opacities)
 }
 #endif
 
-// Where a ray crosses a triangle, if it does between its ends.
+// Intersection of a ray with a triangle, if there is one between the ray's ends.
 struct Crossing {
     bool isThere;
 #if HAS_SUBSURFACE_PASSAGE
-    bool isOnce;  // of two triangles with a common edge that the ray meets, true of one alone
-    float share;  // of the ray up to there; minus that where the ray goes in, past the front
-    uint passed;  // the row of SubsurfaceConstants that lets light through there, 0 for none
+    bool isOnce;  // for a ray through the common edge of two triangles, true for only one of them
+    float share;  // ray parameter; negative if the ray enters here, through the front
+    uint passed;  // row of SubsurfaceConstants if the material transmits light, else 0
 #endif
 };
 
 #if HAS_SUBSURFACE_PASSAGE
 #define NO_CROSSING Crossing(false, false, 0.0, 0u)
 
-// Whether an edge that a ray meets belongs to a triangle on this side of it, and not to one on the other.
+// Whether an edge that a ray meets counts for the triangle on this side of it, and not for one on the other.
 bool ownsEdge(vec2 along, float orientation)
 {
     vec2 turnedAlong = orientation > 0.0 ? along : -along;
@@ -158,7 +158,7 @@ bool ownsEdge(vec2 along, float orientation)
 #define NO_CROSSING Crossing(false)
 #endif
 
-// By the triangle's first texel.
+// `triangle`: its first texel.
 Crossing crossingOf(ShadowRay ray, uint triangle, bool isMasked)
 {
     vec4 corner0 = casterTexel(triangle);
@@ -174,21 +174,21 @@ Crossing crossingOf(ShadowRay ray, uint triangle, bool isMasked)
     precise float v = aAcross.x * cAcross.y - aAcross.y * cAcross.x;
     precise float w = bAcross.x * aAcross.y - bAcross.y * aAcross.x;
     if (min(u, min(v, w)) < 0.0 && max(u, max(v, w)) > 0.0) return NO_CROSSING;
-    // On which side of the plane each end is, and how far from it, times the normal's length. Corner 0 lies between the
-    // shorter edges, so that their product keeps the normal's digits in thin triangles too.
+    // Side and distance of each end relative to the plane, times the normal's length. Corner 0 lies between the shorter
+    // edges, so that their product keeps the normal's digits in thin triangles too.
     precise vec3 edge1 = corner1.xyz - corner0.xyz;
     precise vec3 edge2 = corner2.xyz - corner0.xyz;
     precise vec3 fromCorner = ray.originCS - corner0.xyz;
     precise vec3 normal = cross(edge1, edge2);
-    // Squares of small triangles' areas are below what fp32 holds.
+    // fp32 cannot hold the squares of small triangles' areas.
     vec3 components = abs(normal);
     float largest = max(max(components.x, components.y), max(components.z, 1e-37));
     precise float area = largest * length(normal / largest);
     precise float originSide = dot(normal, fromCorner);
     precise float lightSide = originSide + dot(normal, ray.toLightCS);
-    // A component of the normal is off by some 2^-23 of the edges' product, and what it is multiplied with by 2^-24 of
-    // itself; three of each are summed. Rounding has moved the corner by 2^-24 of its distance from the origin of
-    // casters' space, which is at most the point's, as in originRounding, and the way between them.
+    // A component of the normal is off by about 2^-23 of the product of the edges, and its factor by 2^-24 of itself;
+    // three of each are summed. The corner is off by 2^-24 of its distance from the origin of caster space, which is at
+    // most the point's distance, as in originRounding, plus the way between them.
     precise float digits = 7.0e-7 * length(edge1) * length(edge2);
     precise float originError = ray.originRounding * area + digits * length(fromCorner);
     precise float lightError = ray.lightRounding * area + digits * (length(fromCorner) + length(ray.toLightCS));
@@ -205,7 +205,7 @@ Crossing crossingOf(ShadowRay ray, uint triangle, bool isMasked)
         crossing.isThere = isSolid(triangle, vec3(u, v, w) / sum, vec3(corner0.w, corner1.w, corner2.w));
 #endif
 #if HAS_SUBSURFACE_PASSAGE
-    // As integers: a small one is a denormal float, which GPUs may flush to 0.
+    // As integers: small values are denormal floats, which GPUs may flush to 0.
     uint mark = texelFetch(casterTexels, int(isMasked ? triangle + 4u : triangle)).w;
     crossing.passed = mark & CASTER_PASSED;
     crossing.isOnce = (u != 0.0 || ownsEdge(cAcross - bAcross, sum)) && (v != 0.0 || ownsEdge(aAcross - cAcross, sum)) &&
@@ -217,16 +217,16 @@ Crossing crossingOf(ShadowRay ray, uint triangle, bool isMasked)
     return crossing;
 }
 
-// Where a walk is.
+// State of a traversal.
 struct CasterWalk {
-    uint node;      // the next one; past the last: the walk ends when no triangles are left
-    uint triangle;  // the next one of the leaf that it has come to
-    uint triangles; // left of that leaf
-    bool isMasked;  // they are
-    bool isHidden;  // the light is
+    uint node;      // next node; past the last: the traversal ends when no triangles are left
+    uint triangle;  // next triangle of the current leaf
+    uint triangles; // number of triangles left in that leaf
+    bool isMasked;  // whether they have masks
+    bool isHidden;  // whether the light is hidden
 #if HAS_SUBSURFACE_PASSAGE
-    uint passed;    // what lets the light through: a row of SubsurfaceConstants; 0: nothing does
-    float inside;   // share of the ray inside that
+    uint passed;    // row of SubsurfaceConstants of bodies that transmit the light; 0: none do
+    float inside;   // fraction of the ray inside these bodies
 #endif
 };
 
@@ -241,7 +241,7 @@ bool goesOn(CasterWalk walk)
     return walk.node < casterTree.size.x || walk.triangles > 0u;
 }
 
-// A step is a triangle, or a node where no triangles are left.
+// Takes one step: a triangle, or a node if no triangles are left.
 void takeStep(ShadowRay ray, inout CasterWalk walk)
 {
     if (walk.triangles > 0u) {
@@ -274,11 +274,11 @@ void takeStep(ShadowRay ray, inout CasterWalk walk)
     }
 }
 
-// Goes all the way, or until the light is hidden. A walk that could go on after that was ended by Mesa.
+// Traverses all nodes, or stops when the light is hidden. If it could go on after that, Mesa truncated the loop.
 void walkOn(ShadowRay ray, inout CasterWalk walk)
 {
-    // CASTER_STEPS (renderer/frame/FrameDefines.cpp) are spelt out: Mesa counts the iterations of all loops of a shader
-    // together and ends the loops when there are too many.
+    // CASTER_STEPS (renderer/frame/FrameDefines.cpp) are unrolled by hand: Mesa counts the iterations of all loops of a
+    // shader together and truncates loops when there are too many.
 #define NEXT_STEP if (goesOn(walk)) takeStep(ray, walk);
     while (goesOn(walk)) {
         takeStep(ray, walk);
@@ -292,13 +292,13 @@ void walkOn(ShadowRay ray, inout CasterWalk walk)
     }
 }
 
-// 0 where casters hide the light, or (isBehind) the point's own triangle does, else 1.
+// Returns 0 if casters hide the light, or (isBehind) the point's own triangle does, else 1.
 float visibilityAlong(ShadowRay ray, bool isBehind)
 {
-    // The ray of a helper invocation may meet every box, and the pixels beside it would wait for it.
+    // Skips helper invocations: their rays may meet every box, and neighbouring pixels would wait for them.
     CasterWalk walk = CASTER_WALK(isBehind || IS_HELPER ? casterTree.size.x : 0u, isBehind);
     walkOn(ray, walk);
-    // A loop that was ended all the same: NaN, which shows, instead of light that is not known.
+    // A truncated loop yields NaN, which is visible, instead of unknown light.
     if (goesOn(walk)) return CUT_LOOP;
     return walk.isHidden ? 0.0 : 1.0;
 }
@@ -306,8 +306,8 @@ float visibilityAlong(ShadowRay ray, bool isBehind)
 #if HAS_SUBSURFACE_PASSAGE
 const float PASSAGE_HIDDEN = -1e30;
 
-// The share of the ray inside what has a row of SubsurfaceConstants, by where it goes in and out; PASSAGE_HIDDEN where
-// something else hides the light.
+// Fraction of the ray inside bodies whose row of SubsurfaceConstants is `subsurface`, by where it enters and leaves
+// them; PASSAGE_HIDDEN if something else hides the light.
 float passageAlong(ShadowRay ray, uint subsurface)
 {
     CasterWalk walk = CASTER_WALK(IS_HELPER ? casterTree.size.x : 0u, false);

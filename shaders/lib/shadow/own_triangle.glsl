@@ -1,27 +1,27 @@
-// The triangle that a point lies on: it hides lights behind it, and maps are followed along its plane.
+// The triangle that a point lies on: it hides lights behind it, and shadow-map look-ups follow its plane.
 #pragma once
 #include "shared/facet.h"
 
-// A plane through the point that hides the lights behind it: of its triangle, or of the normal that it is lit with.
+// Plane through the point that hides the lights behind it: that of its triangle, or of its shading normal.
 struct OwnPlane {
     vec3 normal;        // away from the viewer
-    float errorRadians; // by how much the normal may be off
-    bool hides;         // false where the surface wraps light
+    float errorRadians; // maximum error of the normal
+    bool hides;         // false if the surface wraps light
 };
 
-// Whether the plane lies between the viewer and the light, `rounding` being that of the way to the light.
+// Whether the plane lies between the viewer and the light; `rounding`: error of `toLight`.
 bool hidesBehind(OwnPlane plane, vec3 toLight, float rounding)
 {
     precise float behind = dot(plane.normal, toLight);
     return plane.hides && behind > plane.errorRadians * length(toLight) + rounding;
 }
 
-// How far the plane of a lifted point stays turned towards the light, as a sine: more than the stored normal may be off.
+// Minimum sine by which the plane of a lifted point faces the light: more than the error of the stored normal.
 #define LIFTED_FACING (4.0 * FACET_ERROR_RADIANS)
 
-// The normal of the plane that maps are followed along from a point above its triangle. The point lies on a curved surface
-// that faces the light, though the triangle may not: the triangle's plane would fall away from the light where the surface
-// rises towards it. So the normal is turned until the plane faces the light, if barely.
+// Normal of the plane that shadow-map look-ups follow from a point lifted above its triangle. The point lies on a
+// curved surface that faces the light, though the triangle may not: the triangle's plane would fall away from the light
+// where the surface rises towards it. So the normal is turned until the plane barely faces the light.
 vec3 liftedPlaneNormal(vec3 facetNormal, vec3 toLight)
 {
     precise vec3 ahead = toLight * inversesqrt(max(dot(toLight, toLight), 1e-37));

@@ -1,5 +1,5 @@
-// Shadows: how much of a light reaches a point past the casters (scenes/Shadows.h). Every technique, transparent
-// surfaces and light volumes ask shadowFactor() and nothing else.
+// Shadows: the fraction of a light that casters let through to a point (scenes/Shadows.h). Every technique, transparent
+// surfaces and light volumes call shadowFactor() and nothing else.
 #pragma once
 #include "lib/light/light_store.glsl"
 #include "lib/reflectance/subsurface.glsl"
@@ -12,10 +12,10 @@
 #include "lib/shadow/traced_shadow.glsl"
 #endif
 
-// The share of light `index` that casters let through to a point of a surface: 0 where they hide all of it, 1 where they
-// hide nothing or the light casts no shadows. A surface hides lights behind its triangle, whatever normal it is lit with,
-// unless it wraps light. A smooth-shaded one is asked from above its triangle, which is met there as any other, and hides
-// lights behind the plane of the normal that it is lit with.
+// Fraction of light `index` that casters let through to a point of a surface: 0 if they hide all of it, 1 if they hide
+// nothing or the light casts no shadows. A surface hides lights behind its triangle, whatever its shading normal,
+// unless it wraps light. On a smooth-shaded surface the look-up starts above the triangle, which then hides light like
+// any other, and lights behind the plane of the shading normal are hidden.
 float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 {
     int kind = int(lightTexel(index, 1).w);
@@ -39,7 +39,7 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
     if (wrapsLight(surface)) lift = 0.0;
 #endif
 #if !HAS_SHADOW_MAPS
-    // A triangle that is nearer is the point's own, and hides nothing (lib/shadow/caster_walk.glsl).
+    // A triangle that is nearer counts as the point's own, and hides nothing (lib/shadow/caster_walk.glsl).
     if (lift * casterTree.rwsOriginCS.w < 2.0 * roundingAt(viewpoint.positionLS)) lift = 0.0;
 #endif
     if (lift > 0.0) {
@@ -70,9 +70,9 @@ float shadowFactor(int index, Surface surface, Viewpoint viewpoint)
 }
 
 #if HAS_SUBSURFACE_PASSAGE
-// The share of light `index`, by channel, that reaches a point of a surface through what has the surface's material, as
-// far as that absorbs it (docs/skin.md). Traced, other casters hide it; maps tell how far behind the first one the
-// point lies. Of a light with a size it is that of its middle. None of lights that cast no shadows passes through.
+// Fraction of light `index`, by channel, that is transmitted to a point of a surface through bodies of the surface's
+// material (docs/skin.md). Traced: other casters hide it. Maps: the way is the distance of the point behind the first
+// caster. A light with a size counts as its centre. Lights that cast no shadows are not transmitted.
 vec3 passingShare(int index, Surface surface, Viewpoint viewpoint)
 {
     int kind = int(lightTexel(index, 1).w);

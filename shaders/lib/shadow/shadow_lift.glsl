@@ -1,10 +1,10 @@
-// How far above a smooth-shaded triangle its shadows are asked for, as pixels hold it: LIFT_BITS, which all techniques light
-// with. The reference allows the half of a step that a code may be off (validation/reference/Occlusion.cpp).
+// Shadow lift of a smooth-shaded triangle as pixels store it: a code of LIFT_BITS, which all techniques use. The
+// reference tolerates the half of a step that a code may be off (validation/reference/Occlusion.cpp).
 #pragma once
 #include "shared/facet.h"
 #include "lib/surface/camera.glsl"
 
-// How wide a pixel is where a point lies.
+// Width of a pixel at a point.
 float pixelMetres(vec3 positionLS)
 {
     vec2 spread = raySpread();
@@ -13,12 +13,12 @@ float pixelMetres(vec3 positionLS)
     return metres;
 }
 
-// 0 also where rounding or snapped vertices move the point as far.
+// Also 0 if rounding or snapped vertices move the point as far.
 uint encodeLift(float metres, vec3 positionLS)
 {
     precise float lost = 2e-6 * length(positionLS) + 2.0 * snappingMetres(positionLS);
 #if IN_ATLAS
-    return metres > lost ? floatBitsToUint(metres) : 0u; // no pixel holds it
+    return metres > lost ? floatBitsToUint(metres) : 0u; // not stored in a pixel
 #else
     precise float steps = metres / (LIFT_LEAST_PIXELS * pixelMetres(positionLS));
     if (!(metres > lost && steps >= 1.0)) return 0u;

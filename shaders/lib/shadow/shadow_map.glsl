@@ -1,19 +1,19 @@
-// Shadows by maps (shared/shadow_maps.h): compares a point's depth, as a light sees it, with those of the nearest
+// Shadow maps (shared/shadow_maps.h): compares a point's depth, as seen from a light, with those of the nearest
 // casters.
 //
-// No surface hides itself within a texel. Let e be where, on the way from a texel's middle c to the point p in it, one
-// triangle passes into the next, with slopes a (at c) and b (at p) of depth by texels. The map holds the depth at c,
-// moved away by at least half the sum of |a|'s components, but in cascades by a texel's width at most
-// (passes/ShadowMapsPass.cpp). Here the plane of the point's triangle is followed to c and moved nearer by |b| |c - p|.
-// What is between the two depths is (b - a)(c - e), and since e lies between c and p, no component of c - e is more
+// No surface shadows itself within a texel. On the way from a texel's centre c to the point p in it, let e be where one
+// triangle meets the next, with slopes a (at c) and b (at p) of depth by texels. The map holds the depth at c, moved
+// away by at least half the sum of |a|'s components, but in cascades by a texel's width at most
+// (passes/ShadowMapsPass.cpp). The look-up follows the plane of the point's triangle to c and moves it nearer by
+// |b| |c - p|. The two depths differ by (b - a)(c - e), and since e lies between c and p, no component of c - e is more
 // than that of c - p, nor half a texel. Further away, taps of wide filters may find a surface that bends towards the
-// light before the plane.
+// light in front of the plane.
 //
-// That leaves out casters less far towards the light than half a texel is wide, times the slope in metres for a metre.
-// Where a triangle is steep, the next texel on the viewer's side of it is asked as well. It lies up to 1.5 texels aside,
-// where the triangle is behind the point; a triangle beside it that rises by 45 degrees is 1.5 texels nearer at most,
-// half a texel of which the map has moved away. So casters nearer by a texel count. It is worth 1.5 texels aside and one
-// ahead where half a slope is as much: from 5 on.
+// This misses casters that are nearer to the light by less than half a texel's width times the slope, in metres per
+// metre. Where a triangle is steep, the next texel on the viewer's side of it is therefore tested too. It lies up to
+// 1.5 texels aside, where the triangle is behind the point; a triangle beside it that rises by 45 degrees is at most
+// 1.5 texels nearer, and the map has moved it away by half a texel. So casters nearer by a texel count. The test costs
+// 1.5 texels aside and one ahead, which pays where half a slope is as much: from 5 on.
 #pragma once
 #include "shared/face_colors.h"
 #include "shared/slots.h"
@@ -29,35 +29,35 @@
 
 layout(binding = TEXTURE_UNIT_SHADOWS) uniform sampler2D shadowAtlas;
 
-// 1 where a view shows which faces answer (lib/lighting/views.glsl).
+// 1 if a view shows which faces are looked up (lib/lighting/views.glsl).
 #ifndef SHOWS_FACES
 #define SHOWS_FACES 0
 #endif
 #if SHOWS_FACES
-// Of the faces that answered the latest mappedShadow(): rgb the sum of their colours, each by its share; a of the shares.
+// Faces looked up by the latest mappedShadow(): rgb the weighted sum of their colours; a the sum of the weights.
 vec4 answeringFaces = vec4(0.0);
 #endif
 
-// A point as a face sees it.
+// A point relative to a face.
 struct FacePoint {
-    vec2 texel;    // where in the atlas, in texels
+    vec2 texel;    // position in the atlas, in texels
     float depth;   // reverse-Z, as stored
-    vec2 slope;    // change of depth with a texel, along the plane of the point's triangle
-    float bias;    // of rounding, in depth
-    vec2 steepest; // the largest |slope| that the stored normal allows
-    vec2 doubt;    // by how much the slope may be off
-    vec3 face;     // xy its middle and z half its side, in texels
+    vec2 slope;    // change of depth per texel, along the plane of the point's triangle
+    float bias;    // rounding error, in depth
+    vec2 steepest; // the largest |slope| within the error of the stored normal
+    vec2 doubt;    // error of the slope
+    vec3 face;     // xy its centre and z half its side, in texels
     bool isParallel; // the light is directional
-    bool isSoft;   // the light has a size that the filter heeds
-    float perSize; // texels from the point to the rim of what may hide part of a light of size 1, by depth
-    vec2 aside;    // tangents of the way from the light's axis to the point; 0 where lights are parallel
-    float rise;    // by how much a caster must be nearer beside the triangle
-    vec2 ascent;   // slope of its triangle in metres for a metre across the light's direction
-    ivec2 beside;  // the next texel on the viewer's side of a triangle that is steep, else 0
-    bool isSeen;   // not edge-on, which would be of any depth
+    bool isSoft;   // the light has a size, and the filter uses it
+    float perSize; // radius in texels, per light size and depth, within which casters may hide part of the light
+    vec2 aside;    // tangents from the light's axis to the point; 0 if the light is parallel
+    float rise;    // minimum depth by which a caster must be nearer to count in the texel `beside`
+    vec2 ascent;   // slope of its triangle in metres per metre across the light's direction
+    ivec2 beside;  // offset to the next texel on the viewer's side of a steep triangle, else 0
+    bool isSeen;   // false if edge-on, where depth is arbitrary
 };
 
-// `shadow` are the texels of the light (LightShadowTexels).
+// `shadow`: LightShadowTexels of the light.
 FacePoint facePoint(int firstTexel, vec4 shadow, vec3 positionRWS, vec3 facetNormalRWS, float roundingMetres)
 {
     vec4 right = texelFetch(lightTexels, firstTexel);
@@ -66,20 +66,20 @@ FacePoint facePoint(int firstTexel, vec4 shadow, vec3 positionRWS, vec3 facetNor
     vec4 place = texelFetch(lightTexels, firstTexel + 3);
     precise vec3 position = vec3(dot(right.xyz, positionRWS) + right.w, dot(up.xyz, positionRWS) + up.w,
                                  dot(forward.xyz, positionRWS) + forward.w);
-    // Halves of the width, in metres or as tangents.
+    // Half widths, in metres or as tangents.
     precise vec2 width2 = 1.0 / vec2(dot(right.xyz, right.xyz), dot(up.xyz, up.xyz));
     precise vec2 width = sqrt(width2);
     precise vec3 normal = vec3(dot(right.xyz, facetNormalRWS) * width2.x, dot(up.xyz, facetNormalRWS) * width2.y,
                                dot(forward.xyz, facetNormalRWS));
     bool isParallel = place.w < 0.0;
-    // The map's triangles may lie aside by part of a texel.
+    // Vertex snapping may move the map's triangles aside by part of a texel.
     roundingMetres += view.depthKey.w * width.x / place.z * (isParallel ? 1.0 : max(position.z, 0.0));
     precise FacePoint point;
     point.isSoft = SHADOW_FILTER == SHADOW_FILTER_PCSS && shadow.x > 0.0;
     point.face = place.xyz;
     point.isParallel = isParallel;
-    // Depth is linear in the texel: scale times the plane's normal by its distance from the light, or (parallel) by the
-    // normal's part along the light.
+    // Depth is linear in texels: its slope is scale times the plane's normal over its distance from the light, or
+    // (parallel) over the normal's component along the light.
     precise float scale, distance, atOne;
     if (isParallel) {
         scale = -place.w;
@@ -113,7 +113,7 @@ FacePoint facePoint(int firstTexel, vec4 shadow, vec3 positionRWS, vec3 facetNor
     point.rise = texelDepth + (isParallel ? scale * roundingMetres + 4.8e-7
                                           : point.depth * (roundingMetres / max(position.z, 1e-30) + 4.8e-7));
     point.slope = slope;
-    // The stored normal's error in what is divided, and in what it is divided by.
+    // The stored normal's error in the numerator and in the denominator.
     point.doubt = (width + abs(normal.xy) * (atOne / max(leastDistance, 1e-30))) *
                   (FACET_ERROR_RADIANS * perDistance / place.z);
     point.bias = rounding;
@@ -132,13 +132,13 @@ float borderTexels(FacePoint point)
     return shadowBorderTexels(2.0 * point.face.z, float(SHADOW_TAP_TEXELS), point.isSoft);
 }
 
-// Whether casters leave a place of the face in sight, in texels, where the point or another of its triangle's plane is.
+// 1 if no caster hides a position in the face, in texels, at the depth of the point or of its triangle's plane; else 0.
 float seenAt(FacePoint point, vec2 place)
 {
     ivec2 within = withinFace(point, ivec2(floor(place)));
     precise vec2 away = vec2(within) + 0.5 - point.texel;
     precise float onPlane = point.depth + dot(point.slope, away) + dot(point.doubt, abs(away)) + point.bias;
-    // What is farther from the light than the point does not hide it, also where the plane passes below other surfaces.
+    // Casters farther from the light than the point do not hide it, also where the plane passes below other surfaces.
     precise float depth = max(onPlane + dot(point.steepest, min(abs(away), 0.5)), point.depth);
     // 0 is no caster.
     float caster = texelFetch(shadowAtlas, within, 0).r;
@@ -154,9 +154,9 @@ float seenAt(FacePoint point, vec2 place)
 }
 
 #if SHADOW_FILTER == SHADOW_FILTER_PCF
-// The mean over a rectangle around the point, SHADOW_WIDTH texels wide, which cuts the texels at its rim. Where the
-// triangle is steep along a row or a column, the rectangle is as narrow there as a square on the triangle would look. Else
-// taps would follow the plane far beyond where the surface ends, past the casters there.
+// Mean visibility over a rectangle around the point, SHADOW_WIDTH texels wide, which cuts the texels at its rim. Where
+// the triangle is steep along a row or a column, the rectangle is as narrow there as a square on the triangle would
+// look. Otherwise taps would follow the plane far beyond the end of the surface, past the casters there.
 float meanSeen(FacePoint point)
 {
     precise vec2 width = float(SHADOW_WIDTH) * inversesqrt(1.0 + point.ascent * point.ascent);
@@ -181,14 +181,14 @@ float meanSeen(FacePoint point)
         all += share * allOfRow;
     }
     if (y < count.y || x < count.x) return CUT_LOOP;
-    // As they are added up: 1 where all of it is seen.
+    // Both sums add the same terms if nothing is hidden: exactly 1.
     return clamp(sum / all, 0.0, 1.0);
 }
 #endif
 
 #if SHADOW_FILTER == SHADOW_FILTER_PCSS && HAS_SOFT_SHADOWS
-// An offset over a disk across the light's axis, as one over the disk that faces the point: from aside of the axis it
-// covers 1/cos as many texels in that direction.
+// Maps an offset over a disk across the light's axis to the disk that faces the point: off the axis it covers 1/cos as
+// many texels in that direction.
 vec2 acrossDisk(FacePoint point, vec2 offset)
 {
     precise vec2 turned = offset + point.aside * (dot(offset, point.aside) /
@@ -196,9 +196,9 @@ vec2 acrossDisk(FacePoint point, vec2 offset)
     return turned;
 }
 
-// As wide as the penumbra of casters at the mean depth of those around (Fernando 2005, "Percentage-Closer Soft
-// Shadows"). Casters are looked for where they hide part of the light as long as they are not nearer to it than to the
-// point, or (parallel) wherever they are.
+// Mean visibility over the penumbra of casters at the mean depth of those around (Fernando 2005, "Percentage-Closer
+// Soft Shadows"). The search covers casters that hide part of the light and are not nearer to it than to the point, or
+// (parallel) at any distance.
 float penumbraSeen(FacePoint point, float size, vec2 random)
 {
     precise float perDepth = size * point.perSize;
@@ -216,7 +216,7 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
         }
     }
     if (i < SHADOW_SAMPLES) return CUT_LOOP;
-    // Decided before anything is divided by their number.
+    // Returns before a division by their number.
     if (hidden == 0.0) return 1.0;
     if (hidden == float(SHADOW_SAMPLES)) return 0.0;
     precise float penumbra = clamp(perDepth * (depths / hidden - point.depth), 1.0, widest);
@@ -240,14 +240,14 @@ float filtered(FacePoint point, vec4 shadow, Viewpoint viewpoint)
     return seenAt(point, point.texel);
 }
 
-// By how much of its half side a cascade passes over into the next; hard shadows change at once.
+// Fraction of its half side over which a cascade blends into the next; hard shadows change at once.
 const float kBlendShare = SHADOW_FILTER == SHADOW_FILTER_HARD ? 0.0 : 0.1;
 
-// The share of light `index` that its maps let through; isFar: of a directional one, with cascades; planeNormalLS: away
+// Fraction of light `index` that its maps let through; isFar: it is directional, with cascades; planeNormalLS: away
 // from the viewer, of the plane that the surface continues along (liftedPlaneNormal()).
 //
-// One loop over the faces that may hold the point: of cascades the finest, and where it ends the next one. It runs no
-// time for lights without shadows: rasterisers that mask lanes skip loops, but run whatever else is not asked for.
+// A single loop over the faces that may hold the point: the finest cascade, and the next one where it ends. It runs
+// zero times for lights without shadows: rasterisers that mask lanes skip loops, but run all other code.
 float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 planeNormalLS, OwnPlane own, Viewpoint viewpoint)
 {
     precise float hidden = 0.0;
@@ -278,8 +278,7 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 planeNorm
         }
         // Outside a cascade, or the cone of a spot light.
         if (room <= 0.0) ownShare = 0.0;
-        // Depth would not tell: the more a triangle is turned away, the less deep it lies behind the body's lit side,
-        // and the steeper it is.
+        // Depth is ambiguous: triangles turned away at a grazing angle are steep and lie closely behind the lit side.
         bool isBehind = hidesBehind(own, toLight, rounding);
         if (ownShare > 0.0) hidden += share * ownShare * (1.0 - (isBehind ? 0.0 : filtered(point, shadow, viewpoint)));
 #if SHOWS_FACES
@@ -290,15 +289,15 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 planeNorm
         if (share <= 0.0) left = 1;
     }
     if (left > 0) return CUT_LOOP;
-    // Of what no cascade holds nothing is known.
+    // Outside all cascades no casters are known: lit.
     if (share >= 1.0) return 1.0;
     precise float seen = 1.0 - hidden / (1.0 - share);
     return isnan(seen) ? CUT_LOOP : clamp(seen, 0.0, 1.0);
 }
 
 #if HAS_SUBSURFACE_PASSAGE
-// The change of a caster's depth with a column and with a row of texels. Of the neighbours on both sides the one that is
-// nearer in depth is on the same surface.
+// Change of a caster's depth per column and row of texels. Of the two neighbours, the one nearer in depth is on the
+// same surface.
 vec2 casterSlope(FacePoint point, ivec2 texel, float caster)
 {
     vec2 slope = vec2(0.0);
@@ -320,10 +319,10 @@ float metresBehind(FacePoint point, vec4 place, float wayMetres, float caster)
     return behind;
 }
 
-// Metres from the first caster that a face holds on the way from the light to the point, at least 0: the mean of the four
-// texels around it. In a map casters are moved away from the light by the larger of their slopes, in a cascade by the
-// width of a texel at most (passes/ShadowMapsPass.cpp); here they are where they were. On the caster's plane texels
-// beside the point may lie behind it; what is farther behind is another surface.
+// Metres from the first caster in a face to the point, along the way from the light, at least 0: the mean of the four
+// texels around it. The map moves casters away from the light by the larger of their slopes, in a cascade by the width
+// of a texel at most (passes/ShadowMapsPass.cpp); this is undone here. On the caster's plane, texels beside the point
+// may lie behind it; what is farther behind is another surface.
 float passageBehind(FacePoint point, vec4 place, float wayMetres)
 {
     precise vec2 between = point.texel - 0.5;
@@ -345,7 +344,7 @@ float passageBehind(FacePoint point, vec4 place, float wayMetres)
     return max(metres, 0.0);
 }
 
-// The same in the face that shows the point best; below 0 where none does. The arguments are those of mappedShadow().
+// The same in the finest face that contains the point; below 0 if none does. Arguments as of mappedShadow().
 float mappedPassage(int index, int kind, vec3 placeLS, bool isFar, vec3 facetNormalLS, Viewpoint viewpoint)
 {
     vec4 shadow = lightShadowTexel(index);

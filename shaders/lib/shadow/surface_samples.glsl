@@ -1,11 +1,11 @@
-// Places that stand for the surface of a light (scenes/Shadows.h), metres from its middle in world axes.
+// Samples of a light's surface for soft shadows (scenes/Shadows.h), in metres from its centre in world axes.
 #pragma once
 #include "lib/light/area_places.glsl"
 #include "lib/light/light_store.glsl"
 #include "lib/shadow/disk_samples.glsl"
 
-// Of a light whose shadows see a disk, radii at right angles that face the point; of a flat area light the vectors of its
-// plane; of a tube radii of its disks, and half of its axis.
+// Axes of a light's surface. Disk: perpendicular radii that face the point; flat area light: its axes; tube: radii of
+// its disks, and half of its axis.
 struct ShadowSurface {
     int light, type;
     vec3 right, up, axis;
@@ -36,7 +36,7 @@ ShadowSurface shadowSurface(int light, bool isArea, float radius, vec3 right, ve
 }
 
 #if HAS_AREA_LIGHTS
-// Place i of SHADOW_SAMPLES in the unit square: one in each of so many columns, rows a golden share apart, all shifted by
+// Sample i of SHADOW_SAMPLES in the unit square: one per column, with rows spaced by the golden ratio, all shifted by
 // the same random numbers.
 vec2 squarePlace(int i, vec2 random)
 {
@@ -46,7 +46,7 @@ vec2 squarePlace(int i, vec2 random)
 }
 #endif
 
-// Place i of SHADOW_SAMPLES. Source of the step along a tube: Roberts 2018, "The Unreasonable Effectiveness of
+// Sample i of SHADOW_SAMPLES. Source of the step along a tube: Roberts 2018, "The Unreasonable Effectiveness of
 // Quasirandom Sequences".
 vec3 surfacePlace(ShadowSurface surface, int i, vec2 random, float third)
 {

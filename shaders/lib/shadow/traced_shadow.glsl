@@ -1,4 +1,4 @@
-// Shadows by rays from a point to the light, or to a few places on its surface.
+// Shadows by rays from a point to the light, or to samples of its surface.
 #pragma once
 #include "lib/light/light_store.glsl"
 #include "lib/shadow/caster_walk.glsl"
@@ -8,7 +8,7 @@
 #include "lib/shadow/surface_samples.glsl"
 #endif
 
-// 0 where something hides what is at that place, else 1. `behind` grows by 1 where the point's own plane does.
+// 0 if a caster hides that point of the light, else 1. `behind` grows by 1 if the point's own plane does.
 float visibilityOf(vec3 toPlaceCS, float placeRounding, OwnPlane own, vec3 originLS, inout float behind)
 {
     ShadowRay ray = shadowRay(originLS, toPlaceCS, placeRounding);
@@ -18,8 +18,8 @@ float visibilityOf(vec3 toPlaceCS, float placeRounding, OwnPlane own, vec3 origi
 }
 
 #if HAS_SUBSURFACE_PASSAGE
-// Metres that the way to a light goes inside what has a row of SubsurfaceConstants; below 0 where something else hides
-// the light. The arguments are those of tracedShadow().
+// Metres that the way to a light lies inside bodies whose row of SubsurfaceConstants is `subsurface`; below 0 if
+// something else hides the light. Arguments as of tracedShadow().
 float tracedPassage(vec3 placeLS, bool isFar, uint subsurface, Viewpoint viewpoint)
 {
     precise vec3 fromPoint = isFar ? placeLS : placeLS - viewpoint.positionLS;
@@ -33,9 +33,9 @@ float tracedPassage(vec3 placeLS, bool isFar, uint subsurface, Viewpoint viewpoi
 }
 #endif
 
-// What casters let through of light `index`: one in a place, or (isFar) one from far away in that direction, to which
-// rays end behind all casters. In world axes, whose numbers do not depend on those of lighting space. Of
-// lights that are cut at the horizon (isCut), the share is that of what lies before the point's own plane.
+// Fraction of light `index` that casters let through, at the position placeLS or (isFar) in that direction, where rays
+// end behind all casters. Computed in world axes, whose numbers do not depend on those of lighting space. If the light
+// is clipped at the horizon (isCut), it is the fraction of the part in front of the point's own plane.
 float tracedShadow(int index, vec3 placeLS, bool isFar, bool isCut, OwnPlane ownLS, Viewpoint viewpoint)
 {
     precise vec3 ownNormal = mat3(view.worldFromLS) * ownLS.normal;
@@ -47,7 +47,7 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, bool isCut, OwnPlane own
     float lightRounding = isFar ? 0.0 : roundingAt(placeLS);
     float behind = 0.0;
 #if HAS_SOFT_SHADOWS
-    // A light without a size takes one ray.
+    // A light without a size needs one ray.
     vec4 shadow = lightShadowTexel(index);
     int rays = shadow.x > 0.0 ? SHADOW_SAMPLES : 1;
     precise vec3 ahead = toLight * (1.0 / sqrt(max(dot(toLight, toLight), 1e-37)));
@@ -63,7 +63,7 @@ float tracedShadow(int index, vec3 placeLS, bool isFar, bool isCut, OwnPlane own
         precise vec3 toSurface = toLight + surfacePlace(surface, i, random, third);
         seen += visibilityOf(reach * toSurface, lightRounding, own, viewpoint.positionLS, behind);
     }
-    if (i < rays) return CUT_LOOP; // a loop that was ended, as in visibilityAlong()
+    if (i < rays) return CUT_LOOP; // truncated loop, as in visibilityAlong()
     float counted = float(rays) - (isCut ? behind : 0.0);
     precise float perRay = 1.0 / max(counted, 1.0);
     return seen * perRay;

@@ -1,13 +1,13 @@
-// The constants of the view and of its lights, and the one way from a pixel and its depth back to a position. Forward uses it with gl_FragCoord.z
-// and deferred with the stored depth, which are the same number, so both light the very same point.
+// Constants of the view and its lights, and reconstruction of positions from pixel and depth. Forward uses
+// gl_FragCoord.z and deferred the stored depth, which are the same number, so both shade the same point.
 #pragma once
 #include "shared/slots.h"
 #include "shared/frame.h"
 #include "lib/surface/surface.glsl"
 
 #ifdef FLAT_CONSTANTS
-// Handed over by passes/fullscreen.vert: a broadcast each, where Mesa's software rasteriser gathers every number of a uniform
-// block for each lane.
+// Outputs of passes/fullscreen.vert: Mesa's software rasteriser broadcasts them, whereas it gathers every number of a
+// uniform block for each lane.
 layout(location = 0) flat in ViewConstants view;
 layout(location = VIEW_CONSTANT_ROWS) flat in LightingConstants lighting;
 #else
@@ -22,14 +22,14 @@ layout(std140, binding = UNIFORM_LIGHTING) uniform LightingBlock
 };
 #endif
 
-// Whether a fragment is run for derivatives alone. It may lie beyond the picture, or anywhere behind its triangle's rim.
+// Whether this is a helper invocation, which may lie outside the image or beyond its triangle's edges.
 #if defined(LIGHTING_IN_COMPUTE) && LIGHTING_IN_COMPUTE
 #define IS_HELPER false
 #else
 #define IS_HELPER gl_HelperInvocation
 #endif
 
-// The depth-buffer value at a distance ahead of the origin of lighting space.
+// Depth-buffer value at a distance ahead of the origin of lighting space.
 float depthFromAhead(float ahead)
 {
     vec4 lens = view.aheadFromDepth;
@@ -37,7 +37,7 @@ float depthFromAhead(float ahead)
     return depth;
 }
 
-// The component of a pixel's ray across the view axis, in metres: a metre ahead of the eye, or (orthographic) anywhere.
+// Component of a pixel's ray across the view axis, in metres; at one metre ahead of the eye unless orthographic.
 vec3 acrossOfPixel(vec2 pixel)
 {
     precise vec2 place = pixel - view.rayFromPixel.zw;
@@ -45,14 +45,13 @@ vec3 acrossOfPixel(vec2 pixel)
     return across;
 }
 
-// How wide the rays of pixels lie apart s metres ahead of the origin of lighting space: x + y s times as wide as rayFromPixel.
+// Scale of pixel rays: s metres ahead of the origin of lighting space they lie (x + y s) times as wide as rayFromPixel.
 vec2 raySpread()
 {
     return view.forwardLS.w != 0.0 ? vec2(1.0, 0.0) : vec2(view.eyeLS.w, 1.0);
 }
 
-// By how many metres at most a rasteriser moves a point off its triangle: one that is found from snapped vertices lies aside
-// of where it was.
+// Maximum distance in metres by which vertex snapping moves a rasterised point off its triangle.
 float snappingMetres(vec3 positionLS)
 {
     vec2 spread = raySpread();
@@ -66,7 +65,7 @@ Viewpoint viewpointFromDepth(vec2 pixel, float depth)
     precise float ahead = (view.aheadFromDepth.x + view.aheadFromDepth.y * depth)
                           / (view.aheadFromDepth.z + view.aheadFromDepth.w * depth);
 #else
-    // w is 1 for a perspective camera.
+    // aheadFromDepth.w is 1 for a perspective camera.
     precise float ahead = (view.aheadFromDepth.x + view.aheadFromDepth.y * depth) / (view.aheadFromDepth.z + depth);
 #endif
     precise vec3 across = acrossOfPixel(pixel);
@@ -81,7 +80,7 @@ Viewpoint viewpointFromDepth(vec2 pixel, float depth)
         return viewpoint;
     }
 #endif
-    // Along the axis and across it: each part is as small as the visible part of the scene, at any distance of the eye.
+    // Split along and across the view axis: each part is as small as the visible scene, wherever the eye is.
     precise float viewDepth = view.eyeLS.w + ahead;
     precise vec3 position = viewDepth * across + ahead * view.forwardLS.xyz;
     precise vec3 ray = across + view.forwardLS.xyz;

@@ -1,5 +1,5 @@
-// The normal of the triangle that a surface lies on, unlike the one that it is lit with; it points away from the viewer.
-// Shadows need it (lib/shadow/own_triangle.glsl). Stored in 24 bits; all techniques light with the stored one.
+// Geometric normal of a surface's triangle, away from the viewer; shadows need it besides the shading normal
+// (lib/shadow/own_triangle.glsl). Stored in 24 bits; all techniques use the decoded one.
 #pragma once
 #include "shared/facet.h"
 #include "lib/maths/octahedral.glsl"
@@ -7,7 +7,7 @@
 uint encodeFacet(vec3 normal)
 {
     vec2 code = encodeOctahedral(normal);
-    // As decodeSigned() reads it: the largest code stands for no place.
+    // Matches decodeSigned(), which leaves the largest code unused.
     precise vec2 share = clamp(0.5 * code + 0.5, 0.0, 1.0) * float((1 << FACET_BITS) - 2) + 0.5;
     uvec2 fields = uvec2(share);
     return fields.x | (fields.y << FACET_BITS);

@@ -1,4 +1,4 @@
-// The surface properties that lighting needs at a point, from a rasterised material (lib/material/material.glsl) or from the
+// Surface properties for lighting at a point, from a rasterised material (lib/material/material.glsl) or from the
 // G-buffer (lib/gbuffer/gbuffer.glsl).
 #pragma once
 #include "shared/models.h"
@@ -7,7 +7,7 @@
 #include "lib/maths/normal_code.glsl"
 #include "lib/surface/facet.glsl"
 
-// Whether light may pass through surfaces: the transparent pass draws those, and none is ever stored.
+// Whether surfaces may transmit light: only in the transparent pass, whose surfaces are never stored in the G-buffer.
 #ifndef BLENDED
 #define BLENDED 0
 #endif
@@ -16,7 +16,7 @@
 struct Surface {
     uint model;        // MODEL_*
 #if !HAS_VARYING_MATERIALS
-    uint material;     // its number
+    uint material;     // number of its material
 #endif
     vec3 albedo;       // k_d, or base colour of metallic_roughness
     float metallic;    // metallic_roughness
@@ -24,24 +24,24 @@ struct Surface {
     vec3 specular;     // k_s, or the dielectric F0 of metallic_roughness
     float iorOrF90;    // index of refraction of microfacet, or the dielectric F90 of metallic_roughness
     vec3 emission;     // radiance that needs no light; all of single_color
-    NormalCode normalCode; // of surfaces that are rasterised
-    vec3 normalLS;     // unit; of a drawn surface what the code says, of a stored one what its channel does
+    NormalCode normalCode; // of rasterised surfaces
+    vec3 normalLS;     // unit; decoded from normalCode, or from the G-buffer channel
 #if HAS_SUBSURFACE_ROWS
-    uint subsurface;   // row of its constants (shared/subsurface.h); 0 where it has none
+    uint subsurface;   // row of its constants (shared/subsurface.h); 0 for none
 #endif
 #if HAS_SHADOWS
-    uint facetCode;    // of surfaces that are rasterised
-    vec3 facetNormalLS; // what it says: the normal of the triangle, unit, away from the viewer
+    uint facetCode;    // of rasterised surfaces
+    vec3 facetNormalLS; // decoded geometric normal, unit, away from the viewer
 #endif
 #if HAS_SHADOW_LIFT
-    uint liftCode;     // how far above it shadows are asked for (lib/shadow/shadow_lift.glsl)
+    uint liftCode;     // shadow lift (lib/shadow/shadow_lift.glsl)
 #endif
 #if HAS_OCCLUSION_TEXTURE
-    uint openCode;     // the share of the environment's light that arrives, of OPEN_BITS
+    uint openCode;     // fraction of the environment's light that reaches it, in OPEN_BITS
 #endif
-    vec3 normalTexel;  // the normal map's texel as stored, for the view that shows it; for the view
-                       // normal_object that normal, coded the same way
-    float parameter;   // the one of models that HAS_PARAMETER, >= 0: p of blinn_phong
+    vec3 normalTexel;  // normal-map texel as stored, for the view that shows it; in the view normal_object the
+                       // object-space normal, coded the same way
+    float parameter;   // parameter of models with HAS_PARAMETER, >= 0: p of blinn_phong
 #if HAS_MASKING_OPTIONS
     uint masking;      // MASKING_*, of the microfacet models
 #endif
@@ -50,33 +50,33 @@ struct Surface {
     float alphaBitangent;   // GGX alpha along cross(normal, tangent), >= ALPHA_MIN
 #endif
 #if HAS_CLEARCOAT
-    vec2 coatNormalCode; // the coat's own normal in lighting space, octahedral: all techniques decode the stored code
-    float coatFactor;    // 0 where there is no coat
+    vec2 coatNormalCode; // the coat's normal in lighting space, octahedral; all techniques decode it
+    float coatFactor;    // 0 without a coat
     float coatAlpha;     // GGX alpha, >= ALPHA_MIN
 #endif
 #if HAS_SHEEN
-    vec3 sheenColor;   // black where there is no sheen
+    vec3 sheenColor;   // black without a sheen
     float sheenAlpha;  // alpha of the Charlie distribution, >= ALPHA_MIN
 #endif
 #if HAS_PASSING_LIGHT
-    float transmission; // 0..1, share of what enters that passes
-    vec3 passing;       // share of white light that passes, before surface and layers reflect and the body absorbs
-    vec3 leftByBody;    // what a body leaves of white light that goes as far as it is thick
+    float transmission; // 0..1, transmitted fraction of the light that enters
+    vec3 passing;       // transmitted fraction of white light, without reflection and absorption
+    vec3 leftByBody;    // transmittance of the body over its thickness
     float passingIor;   // index of refraction below the surface
     float passingAlpha; // GGX alpha of the transmitting microfacets, >= ALPHA_MIN, which means smooth
-    float bodyMetres;   // how thick the body below the surface is; 0 where there is none
+    float bodyMetres;   // thickness of the body below the surface; 0 for none
 #endif
 };
 
-// Where the surface is; never stored, always rebuilt from depth (lib/surface/camera.glsl).
+// Position of the surface; never stored, always reconstructed from depth (lib/surface/camera.glsl).
 struct Viewpoint {
     vec3 positionLS;
     vec3 toViewerLS; // unit
     float depth;     // as stored in the depth buffer
-    vec2 pixel;      // window coordinates of its centre
+    vec2 pixel;      // window coordinates of the shaded position
 };
 
-// All techniques light the stored code of a share.
+// All techniques shade with the decoded fraction.
 const uint OPEN_MOST = (1u << OPEN_BITS) - 1u;
 
 uint encodeOpen(float share)
@@ -91,7 +91,7 @@ float decodeOpen(uint code)
     return share;
 }
 
-// The model of every surface when the scene uses only one, else the stored one.
+// The scene's only model if it has one, else the stored one.
 uint surfaceModel(uint stored)
 {
 #ifdef SOLE_MODEL
@@ -101,7 +101,7 @@ uint surfaceModel(uint stored)
 #endif
 }
 
-// The dielectric lobe where no material changes it: k_s = 1, or F0 of ior 1.5.
+// Specular colour unless a material changes it: k_s = 1, or F0 of ior 1.5.
 vec3 defaultSpecular(uint model)
 {
 #if HAS_GLOSSY_MODELS
@@ -110,7 +110,7 @@ vec3 defaultSpecular(uint model)
     return vec3(1.0);
 }
 
-// Members that only some scenes have, where nothing sets them.
+// Sets members that only some scenes have to neutral values.
 void setNeutralLobes(inout Surface surface)
 {
 #if !HAS_VARYING_MATERIALS
@@ -148,7 +148,7 @@ void setNeutralLobes(inout Surface surface)
 #endif
 }
 
-// A surface of which nothing is known; the first model is unlit.
+// Sets all members to neutral values; the first model is unlit.
 void setNeutralValues(inout Surface surface)
 {
     surface.specular = vec3(0.0);

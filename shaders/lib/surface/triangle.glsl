@@ -1,21 +1,20 @@
-// What a fragment's triangle holds at the pixel's centre, in double precision (passes/triangle.geom hands it over).
-// Rasterisers interpolate in fp32 from a corner of the window, which loses as many digits as a value changes over the
-// picture: where a pixel spans hundreds of texels, a hundredth of a texel, and more on slivers. Only --filter exact pays
-// for this.
+// Interpolation over a fragment's triangle in double precision, with inputs from passes/triangle.geom. Rasterisers
+// interpolate in fp32 from a corner of the window, which loses as many digits as a value changes over the image: a
+// hundredth of a texel where a pixel spans hundreds of texels, and more on slivers. Only --filter exact pays for this.
 #pragma once
 #include "lib/surface/camera.glsl"
 
 layout(location = 10) flat in vec3 triangleLS[3];
 #if HAS_TEXCOORDS
-layout(location = 13) flat in vec4 triangleTexCoords[3]; // xy the first set, zw the second
+layout(location = 13) flat in vec4 triangleTexCoords[3]; // xy first set, zw second
 #endif
 #if !DEPTH_ONLY
 layout(location = 16) flat in vec3 triangleNormalLS[3];
 #endif
 
-// The ray through a pixel's centre.
+// Ray through a pixel position.
 struct PixelRay {
-    dvec3 originLS; // where it meets the plane across the view axis through the origin of lighting space
+    dvec3 originLS; // intersection with the plane across the view axis through the origin of lighting space
     dvec3 directionLS;
 };
 
@@ -27,14 +26,14 @@ PixelRay pixelRay(vec2 pixel)
     return PixelRay(spread.x * across, dvec3(view.forwardLS.xyz) + spread.y * across);
 }
 
-// Weights of the triangle's corners where the ray through the pixel's centre meets its plane, by Cramer's rule.
+// Barycentric weights of the intersection of a pixel's ray with the triangle's plane, by Cramer's rule.
 dvec3 triangleWeights(vec2 pixel)
 {
     PixelRay ray = pixelRay(pixel);
     dvec3 edge1 = dvec3(triangleLS[1]) - dvec3(triangleLS[0]);
     dvec3 edge2 = dvec3(triangleLS[2]) - dvec3(triangleLS[0]);
     double slope = dot(cross(edge1, edge2), ray.directionLS);
-    if (slope == 0.0) return dvec3(1.0, 0.0, 0.0); // seen exactly edge-on: nothing to be met
+    if (slope == 0.0) return dvec3(1.0, 0.0, 0.0); // exactly edge-on: no intersection
     dvec3 moment = cross(ray.directionLS, dvec3(triangleLS[0]) - ray.originLS);
     double weight1 = -dot(edge2, moment) / slope;
     double weight2 = dot(edge1, moment) / slope;
@@ -42,7 +41,7 @@ dvec3 triangleWeights(vec2 pixel)
 }
 
 #if !DEPTH_ONLY
-// The cosine between the triangle's normal and that ray; NaN where it has no area.
+// Cosine between the triangle's normal and the pixel's ray; NaN for a triangle without area.
 float triangleCosine(vec2 pixel)
 {
     dvec3 direction = pixelRay(pixel).directionLS;
@@ -53,8 +52,8 @@ float triangleCosine(vec2 pixel)
 #endif
 
 #if HAS_MIXED_FILTERS
-// Change of those weights to the next pixel, whose ray lies `acrossChange` beside, a metre ahead of the eye or anywhere:
-// the quotient rule on Cramer's.
+// Change of the weights to the next pixel, by the quotient rule. `acrossChange`: change of the ray across the view
+// axis, at one metre ahead of the eye (orthographic: at any depth).
 dvec3 triangleWeightsChange(vec2 pixel, dvec3 weights, dvec3 acrossChange)
 {
     PixelRay ray = pixelRay(pixel);
@@ -74,7 +73,7 @@ dvec3 triangleWeightsChange(vec2 pixel, dvec3 weights, dvec3 acrossChange)
 #endif
 
 #if HAS_TEXCOORDS
-// Both sets.
+// Both texture-coordinate sets.
 dvec4 triangleTexCoord(dvec3 weights)
 {
     return weights.x * dvec4(triangleTexCoords[0]) + weights.y * dvec4(triangleTexCoords[1])
