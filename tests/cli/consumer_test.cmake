@@ -1,11 +1,11 @@
-# Installs the build BUILD_DIR below WORK_DIR, then configures, builds and runs the consumer against it. What an earlier
-# install left behind must not help, so WORK_DIR starts empty.
+# Installs the build BUILD_DIR below WORK_DIR, then configures, builds and runs the consumer against it. WORK_DIR starts
+# empty, so that leftovers of an earlier install cannot help.
 file(REMOVE_RECURSE ${WORK_DIR})
 
 function(run what)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
     if(NOT result EQUAL 0)
-        message("${output}") # FATAL_ERROR would break its lines anew
+        message("${output}") # FATAL_ERROR would wrap its lines again
         message(FATAL_ERROR "${what} failed (${result})")
     endif()
     set(output "${output}" PARENT_SCOPE)

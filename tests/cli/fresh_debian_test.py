@@ -18,8 +18,8 @@ from installed_files import TEXTS, checkDesktop, checkTexts, filesOf
 SKIPPED = 77
 READY = "This Debian is ready."
 
-# What is done there, as root. $1 and $2 are the packages, $3 what the first recommends. By dpkg's list of the installed
-# files all of them are there, and none after the removal.
+# Run there as root. $1 and $2 are the packages, $3 the recommendations of the first. Checks that all files that dpkg
+# lists exist after the installation, and none after the removal.
 SCRIPT = """
 set -e
 export DEBIAN_FRONTEND=noninteractive GALLIVM_PERF=nopt

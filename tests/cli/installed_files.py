@@ -8,7 +8,7 @@ import unittest
 import xml.etree.ElementTree
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-# The words by which the program prints what is installed of it as text.
+# Arguments with which the program prints its installed texts.
 TEXTS = (("manual",), ("completion", "bash"), ("completion", "zsh"))
 
 case = unittest.TestCase()
@@ -48,5 +48,5 @@ def checkDesktop(usr):
     case.assertEqual(component.findtext("launchable"), desktop.name)
     case.assertEqual(component.findtext("icon"), keys["Icon"])
     case.assertEqual([kind.text for kind in component.iter("mediatype")], keys["MimeType"].strip(";").split(";"))
-    # The viewer's window has the name by which the desktop knows it.
+    # The viewer's window has the name that the desktop file declares.
     case.assertIn(f'title = "{keys["StartupWMClass"]}"', (REPOSITORY / "renderer/gpu/Context.h").read_text())

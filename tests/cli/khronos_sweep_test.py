@@ -12,7 +12,7 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(REPOSITORY / "tools"))
 import khronos_models as tool  # noqa: E402
 
-SIZE = "240x136"  # the margin that the supplied camera leaves at each side is three pixels of the height
+SIZE = "240x136"  # the default camera's margin at each side is then three pixels of the height
 
 
 def main():

@@ -95,7 +95,7 @@ class Packages(unittest.TestCase):
         run(BUILD / "apps/tessera", "render", "hall", "-o", WORK / "pictures/built.exr", *size, env=self.environment)
         self.assertEqual((WORK / "pictures/hall.exr").read_bytes(), (WORK / "pictures/built.exr").read_bytes())
         self.assertTrue((WORK / "pictures/hall.png").read_bytes().startswith(b"\x89PNG"))
-        # Reading it takes the module, which must be the package's own.
+        # Reading the image needs the module, which must be the package's.
         said = self.tessera("compare", "hall", "--against", "hall.exr", "--json", "-", *size, LD_DEBUG="libs",
                             LD_DEBUG_OUTPUT=str(WORK / "loaded"))
         (pair,) = json.loads(said)["pairs"]

@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-# Commands that a document may show and that are not run here: pattern of the whole command, reason.
+# Commands in documents that are not run here: pattern of the whole command, reason.
 EXCEPTIONS = [
     (r"\./test\b.*", "runs the tests, of which this is one"),
     (r"cmake --(preset|build|install)\b.*", "builds the project again"),

@@ -15,7 +15,7 @@ import shutil
 import subprocess
 import sys
 
-# Patch: page, most new files, most files in all.
+# Patch: page, maximum of new files, maximum of files in all.
 PATCHES = {
     "vignette": ("add-a-pass.md", 3, 6),
     "deferred_prepass": ("add-a-technique.md", 0, 2),
@@ -23,7 +23,7 @@ PATCHES = {
     "cosine_light": ("add-a-light-type.md", 0, 4),
     "pillars_scene": ("add-a-scene.md", 1, 3),
 }
-# A setting is part of the first patch; its files:
+# The first patch contains a setting, in these files:
 SETTING_FILES = {"renderer/frame/FrameSettings.h", "engine/FrameSettingRows.cpp"}
 
 
@@ -75,7 +75,7 @@ def build(source, cmake, work):
     built = {"build", "out", ".git"}
     shutil.copytree(source, copy, ignore=lambda folder, names: built & set(names) if pathlib.Path(folder) == source else [])
     for name in PATCHES:
-        # Patches of two guides may touch neighbouring rows of one table.
+        # Patches of two guides may change neighbouring rows of one table.
         run(["patch", "-p1", "--no-backup-if-mismatch", "-i", str(source / "docs/guides" / f"{name}.patch")], copy)
     launcher = []
     if shutil.which("ccache"):

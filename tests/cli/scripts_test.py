@@ -8,12 +8,12 @@ import tempfile
 import unittest
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
-# What the scripts take from every Unix system; nothing else of the real machine is in their PATH.
+# Utilities of every Unix system that the scripts use; nothing else of the real machine is in their PATH.
 UTILITIES = ["awk", "bash", "cat", "cksum", "dirname", "env", "flock", "grep", "mkdir", "mktemp", "readlink", "rm", "tee", "tr"]
 
 STAND_INS = {
     "id": "echo 0",
-    # Knows every package but the one in the file `missing`.
+    # Has every package installed but the one in the file `missing`.
     "dpkg-query": 'for name in "${@:3}"; do [ "$name" = "$(cat "$MACHINE/missing")" ] || echo "installed $name"; done',
     "apt-get": ': > "$MACHINE/missing"',
     "cmake": 'mkdir -p build/release build/asan; : > build/release/build.ninja; : > build/asan/build.ninja',

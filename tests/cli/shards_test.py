@@ -18,8 +18,8 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 TOOL = REPOSITORY / "tools/cluster/shards.py"
 SCHEDULERS = ["xargs", *(["parallel"] if shutil.which("parallel") else [])]
 
-# Writes down how it was called. A shard of stress is a record with a case of its own, a picture is a file; what is told
-# to fail does once.
+# Logs its arguments. Writes a record with a separate case for a shard of stress, and a file for an image. Fails once
+# for the shard or scene that `fails-once` names.
 STAND_IN = '''#!/usr/bin/env python3
 import json, os, pathlib, sys
 words = sys.argv[1:]
@@ -38,8 +38,7 @@ elif words[0] == "render":
     pathlib.Path(after("-o").replace("%05d", after("--shard").replace("/", "_") if "--shard" in words else "")).write_text("x")
 '''
 
-# What ssh does: runs its words by a shell of the other machine, elsewhere and with nothing of this environment. Notes which
-# machine it was.
+# Stands in for ssh: runs its words in a shell elsewhere, without this environment, and logs the name of the machine.
 SSH = """#!/bin/sh
 while :; do case $1 in -*) shift ;; *) break ;; esac; done
 echo "$1" >> {hosts}
@@ -129,7 +128,7 @@ class Shards(unittest.TestCase):
             record = json.loads((out / "stress.json").read_text())
             self.assertEqual([case["name"] for case in record["cases"]], ["case1", "case2", "case3"])
             self.assertEqual((record["ok"], record["renderer"]), (True, "A"))
-            # Again: all is there.
+            # Again: all results exist.
             self.runGood(*words)
             self.assertEqual(self.calls(), [])
 
@@ -227,7 +226,7 @@ class Shards(unittest.TestCase):
                               (12, ["hall", "room", "--matrix=sizes.json", "--tile", "8"])):
             self.runGood(*words(most, *command))
             self.refused(f"in one size): {most}; give fewer", *words(most + 1, *command))
-        # What it cannot know it leaves to the program.
+        # It leaves to the program whatever it cannot check.
         for command in (["hall", "--matrix", "broken.json"], ["hall", "--matrix", "missing.json"], ["--frames", "3", "hall"],
                         ["hall", "--tile=8", "room"]):
             self.runGood(*words(9, *command))

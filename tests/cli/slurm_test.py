@@ -25,10 +25,10 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 SHARDS = REPOSITORY / "tools/cluster/shards.py"
 PROGRAMS = ["slurmctld", "slurmd", "sbatch", "squeue", "scontrol", "sinfo", "munged", "mungekey"]
 SKIPPED = 77
-PATIENCE_SECONDS = 240  # for anything that Slurm is to do
+PATIENCE_SECONDS = 240  # for any action of Slurm
 
-# How the fastest Slurm there is behaves: a dead node is noticed after seconds, and credentials, for whose lifetime a
-# requeued job has to wait, expire soon. The node has as many processors as it says.
+# Settings for the fastest reaction: Slurm notices a dead node after seconds, and credentials, whose lifetime a requeued
+# job has to wait for, expire soon. The node has the declared number of processors.
 CONFIGURATION = """
 ClusterName=tessera
 SlurmctldHost={host}(127.0.0.1)
@@ -181,7 +181,7 @@ class Cluster(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="tessera slurm ")
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        # Slurm's own files may be in no path with a space, ours may.
+        # Slurm's files need a path without spaces; the results' path may contain some.
         own = tempfile.TemporaryDirectory(prefix="tessera_slurm_")
         self.addCleanup(own.cleanup)
         self.slurm = Slurm(pathlib.Path(own.name))

@@ -18,7 +18,7 @@ import sys
 SKIPPED = 77
 TOLERANCE = 0.03
 TABLE = pathlib.Path(__file__).resolve().parent / "instructions.txt"
-# What is drawn for the table, by name: the arguments of link_programs.
+# The table's views by name, as arguments of link_programs.
 VIEWS = {
     "lattice": "lattice lights=16",
     "lattice_forward": "lattice lights=16 technique=forward",
@@ -36,7 +36,7 @@ VIEWS = {
 }
 COLUMNS = ("instructions", "slow", "loads", "textures", "branches")
 SLOW = {"fdiv", "fsqrt", "frsq", "frcp", "fexp2", "flog2", "fpow", "fsin", "fcos", "idiv", "udiv", "umod", "imod", "irem"}
-# Names of values, which cost nothing.
+# Operations that only name values and cost nothing.
 FREE = {"load_const", "deref_var", "deref_struct", "deref_array", "deref_cast", "phi", "undefined", "mov"} | {f"vec{n}" for n in range(2, 17)}
 BLOCK = re.compile(r"^shader: MESA_SHADER_(\w+)$")
 LABEL = re.compile(r"^label: (\w+)")
@@ -65,7 +65,7 @@ def countsOf(log):
         if label and stage:
             row = counts.setdefault(f"{label.group(1)}.{stage}", dict.fromkeys(COLUMNS, 0))
         elif line.startswith("("):
-            row = stage = None  # the next program's other form
+            row = stage = None  # start of the next program's GLSL IR
         if row is None or not line[:1].isspace():
             continue
         text = line.strip()

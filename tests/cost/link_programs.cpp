@@ -1,5 +1,5 @@
-// link_programs SCENE [KEY=VALUE...]: links the programs of a frame, which count.py has Mesa list. Nothing is drawn, so
-// the rasteriser compiles none. Keys are those of scene files' options, and `lights`.
+// link_programs SCENE [KEY=VALUE...]: links the programs of a frame, whose instructions count.py has Mesa list. Draws
+// nothing, so the rasteriser compiles none. Keys: options of scene files, and `lights`.
 #include <exception>
 #include <memory>
 #include <string>
@@ -20,7 +20,7 @@ int main(int argc, char** argv) try {
         return 2;
     }
     scenes::LoadOptions options;
-    options.useAssets = false; // whose scenes not everybody has
+    options.useAssets = false; // not every user has the asset scenes
     engine::ViewRequest request;
     request.settings.sizePixels = {1280, 720};
     for (int i = 2; i < argc; ++i) {

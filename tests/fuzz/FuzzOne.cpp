@@ -10,9 +10,9 @@
 #include "base/Error.h"
 #include "tests/fuzz/Readers.h"
 
-/// libFuzzer's entry: one program a target, which TESSERA_FUZZ_READER reads. Readers take files, so each input is
-/// written to one, beside those of tests/fuzz/beside. Their folder belongs to the process, and lies in memory where
-/// /dev/shm exists.
+/// libFuzzer's entry point: one program per target, whose reader is TESSERA_FUZZ_READER. Readers take files, so each
+/// input is written to a file beside copies of those in tests/fuzz/beside. The folder is private to the process, and in
+/// memory where /dev/shm exists.
 namespace {
 
 namespace fs = std::filesystem;

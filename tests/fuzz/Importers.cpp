@@ -21,12 +21,12 @@ void readGltf(const path& file) {
     scenes::checkScene(scene);
 }
 
-/// Every clip at its ends, between them and far beyond.
+/// Poses every clip at its ends, between them and far beyond.
 void poseGltf(const path& file) {
     scenes::LoadLedger ledger(kMemoryLimitBytes);
     scenes::Scene scene = scenes::importGltf(file, ledger);
     scenes::checkScene(scene);
-    constexpr std::size_t kMostClips = 4; // others would only slow the fuzzer
+    constexpr std::size_t kMostClips = 4; // more would only slow the fuzzer
     for (std::size_t clip = 0; clip < std::min(scene.rig.clips.size(), kMostClips); ++clip) {
         scenes::playClip(scene, std::to_string(clip));
         const double end = scenes::playingSeconds(scene.rig);
@@ -43,7 +43,7 @@ void readObj(const path& file) {
     scenes::checkScene(scene);
 }
 
-/// A material library, used by a model beside it.
+/// Reads a material library through a model beside it.
 void readMtl(const path& file) {
     readObj(file.parent_path() / "uses.obj");
 }

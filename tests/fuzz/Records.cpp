@@ -33,7 +33,7 @@ void writeAll(const std::string& folder) {
 
 } // namespace
 
-/// A stored run: run.json in the first line, then its first group. Reports, merges and resumes it.
+/// Reports, merges and resumes a stored run: the first line is run.json, the rest its first group.
 void readBench(const fs::path& file) {
     const fs::path bench = file.parent_path() / "bench", merged = file.parent_path() / "merged";
     const std::string text = textOf(file);
@@ -58,7 +58,7 @@ void readBench(const fs::path& file) {
                                                .command = run.at("command")};
         try {
             validation::BenchStore(bench.string(), identity, {}, validation::EarlierRun::Resume);
-        } catch (const InputError&) { // of other groups than none
+        } catch (const InputError&) { // the stored groups differ from the empty plan
         }
     }
     validation::mergeRuns({bench.string()}, merged.string());

@@ -5,7 +5,7 @@
 
 namespace tessera::fuzz {
 
-/// What the viewer remembers. It remembers the same when it is written and read again.
+/// The viewer's preferences. Written and read again, they must be equal.
 void readSettings(const std::filesystem::path& file) {
     const viewer::Preferences preferences = viewer::readPreferences(file);
     const std::filesystem::path again = file.parent_path() / "again" / "viewer.json";

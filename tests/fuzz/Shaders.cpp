@@ -11,13 +11,13 @@
 
 namespace tessera::fuzz {
 
-/// A file of shaders/ that includes those beside it, and itself.
+/// Expands a file of shaders/ that may include those beside it, and itself.
 void expandShader(const std::filesystem::path& file) {
     const shader::SourceTree tree(file.parent_path());
     shader::mapLog(shader::expand(tree, file.filename().string()).text, {});
 }
 
-/// The check of a hook's text. A fault names one of its lines, and a reason.
+/// Checks a hook's text. A fault must name one of the text's lines, and a reason.
 void readHook(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

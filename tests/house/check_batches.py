@@ -11,10 +11,10 @@ import sys
 
 from sources import sourcesOf
 
-# Folders whose sources are one target each; the longest that holds a file counts.
+# Folders whose sources form one target each; the longest match for a file counts.
 TARGETS = ("apps", "base", "engine", "passes", "python", "renderer", "scenes", "shaders", "validation", "viewer", "tests/unit", "tests/gpu", "tests/image",
            "tests/cli/program", "tests/viewer")
-# Files that say which sources of other folders a target takes too.
+# Files that add sources of other folders to a target.
 LISTS = ("python/CMakeLists.txt", "tests/CMakeLists.txt")
 STATEMENT = re.compile(r"(foreach|endforeach|target_sources|tessera_test)\(([^)]*)\)")
 NAMESPACE = re.compile(r"(?:inline )?namespace ([\w:]*) ?\{$")
@@ -43,7 +43,7 @@ def namesIn(text):
                 yield number, "::".join(stack), found.group(1)
             elif VALUE.match(line):
                 yield number, "::".join(stack), VALUE.match(line).group(1)
-            elif FUNCTION.match(whole) and not re.match(r"[^{;]*\);", whole):  # a declaration is no definition
+            elif FUNCTION.match(whole) and not re.match(r"[^{;]*\);", whole):  # skips declarations
                 function = FUNCTION.match(whole)
                 yield number, "::".join(stack), f"{function.group(1)}({parameterTypes(function.group(2))})"
 
@@ -69,7 +69,7 @@ def guestsOf(lists):
                 loops.append((first, rest))
             elif statement == "endforeach":
                 loops.pop()
-            elif statement == "tessera_test":  # its name, label and folder
+            elif statement == "tessera_test":  # arguments: name, label, folder
                 homes[first] = here / rest[1]
             else:
                 for source in rest[1:]:  # after PRIVATE
@@ -89,7 +89,7 @@ def targetsOf(path, guests):
 
 def faultsOf(files, guests):
     """Messages on {path: text}, paths relative to the repository's root. `guests` is what guestsOf() says."""
-    places = collections.defaultdict(dict) # of each name, by file
+    places = collections.defaultdict(dict) # line of each name, by file
     for path, text in sorted(files.items()):
         if path.endswith(".cpp"):
             for number, where, name in namesIn(text):

@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 SKIPPED = 77
 TARGET = re.compile(r"(?:^|/)CMakeFiles/([^/]+)\.dir/")
-# What GCC alone knows, and names that shadow those of another source of a batch.
+# Silences clang on options that only GCC has, and on names that shadow those of another source of a batch.
 FOREIGN = ["-Wno-unknown-warning-option", "-Wno-ignored-optimization-argument", "-Wno-unused-command-line-argument", "-Wno-shadow"]
 
 

@@ -12,7 +12,7 @@ import sys
 
 from sources import sourcesOf
 
-# What each room may include, besides itself. The most specific room that holds a file counts.
+# Folders that each module may include besides itself. The most specific module that contains a file counts.
 ROOMS = {
     "base": (),
     "shaders": (),
@@ -24,21 +24,21 @@ ROOMS = {
     "renderer/frame": ("renderer/culling", "renderer/gpu", "renderer/graph", "renderer/shader", "scenes", "shaders", "base"),
     "passes": ("renderer", "scenes", "shaders", "base"),
     "engine": ("passes", "renderer", "scenes", "shaders", "base"),
-    # The reference computes everything a second time: it shares the plain scene, and nothing else.
+    # The reference computes everything independently: it shares only the plain scene.
     "validation/reference": ("scenes",),
     "validation": ("validation/reference", "engine", "passes", "renderer", "scenes", "shaders", "base"),
     "viewer": ("validation", "engine", "passes", "renderer", "scenes", "shaders", "base"),
     "python": ("apps", "validation", "engine", "renderer", "scenes", "base"),
     "apps": ("viewer", "validation", "engine", "passes", "renderer", "scenes", "shaders", "base"),
 }
-# Single includes that go past the table, with the reason.
+# Single includes that the table forbids, with the reason why they are allowed.
 EXCEPTIONS = {
     ("renderer/gpu/Sampler.h", "scenes/Texture.h"): "the scene's own struct says how a texture is sampled",
 }
 PASS = re.compile(r"(Pass|Prepass)\.h$")
 OPENGL = re.compile(r"(glad|GL|GLES\d?|EGL|KHR|GLFW)/")
 INCLUDE = re.compile(r'\s*#\s*include\s*([<"])([^">]+)[">]')
-# GLSL includes by path from this folder.
+# Paths of GLSL includes are relative to this folder.
 SHADERS = "shaders"
 
 
@@ -82,7 +82,7 @@ def includesOf(root, file):
         if not found:
             continue
         quoted, included = found.group(1) == '"', found.group(2)
-        # A name that is no path from the root is one from the folder of shaders, or a neighbour's.
+        # A name that is not a path from the root is relative to the shader folder or to the including file.
         if quoted and not (root / included).exists():
             for folder in (root / SHADERS, file.parent):
                 if (folder / included).exists():

@@ -13,6 +13,7 @@ import check_clang
 import check_floors
 import check_packages
 import check_reference
+import check_words
 import run_document
 
 
@@ -232,6 +233,18 @@ class Documents(unittest.TestCase):
         self.assertIsNone(run_document.exceptionOf("./tester"))
         self.assertIsNone(run_document.exceptionOf("tessera render hall -o view.png"))
         self.assertIsNotNone(run_document.exceptionOf("./test -R Graph   # one test"))
+
+
+class Words(unittest.TestCase):
+    def testCoinedWordsAreFoundInCommentsAlone(self):
+        source = 'int wish = 0; // told once\nlog("told");\n/* the leeway\n of it */ const char* t = R"(// told)"; // `leeway`\n'
+        faults = list(check_words.faultsOf("a.cpp", check_words.commentsOf(source)))
+        self.assertEqual([fault.split(";")[0] for fault in faults], ["a.cpp:1: 'told'", "a.cpp:3: 'leeway'"])
+
+    def testBlocksOfCodeInDocumentsAreFree(self):
+        text = "The user is told.\n```\nit tells\n```\n`heeds` is a name.\n"
+        faults = list(check_words.faultsOf("a.md", check_words.proseOf(text)))
+        self.assertEqual([fault.split(";")[0] for fault in faults], ["a.md:1: 'told'"])
 
 
 if __name__ == "__main__":

@@ -3,10 +3,10 @@
 #include "tests/image/EnvironmentTest.h"
 #include "tests/support/AreaLights.h"
 
-/// Lights and surfaces of tests of area lights.
+/// Lights, materials and fixtures of area light tests.
 namespace tessera::test {
 
-/// 1 m wide and high, or of a radius of 0.3 m, with its width level. A polygon is a square.
+/// An area light 1 m wide and high, or of radius 0.3 m, with a horizontal width axis. A polygon is a square.
 inline scenes::Light areaLight(scenes::LightType type, const glm::dvec3& positionWS, const glm::dvec3& directionWS,
                                float radiance) {
     scenes::Light light;
@@ -19,21 +19,21 @@ inline scenes::Light areaLight(scenes::LightType type, const glm::dvec3& positio
     return light;
 }
 
-/// The scene's lights and one of each type, with and without a range, from the front and on both sides.
+/// Appends an area light of each type; the disk has a finite range and emits on both sides.
 inline scenes::Scene withAreaLights(scenes::Scene scene) {
     double x = -1.5;
     for (const scenes::LightType type : kAreaTypes) {
         scenes::Light light = areaLight(type, {x, 1.0, 1.5}, {-0.3 * x, -0.5, -1.0}, 3.0f);
         light.rangeMetres = type == scenes::LightType::Disk ? 4.0f : scenes::kInfinity;
         light.isTwoSided = type == scenes::LightType::Disk;
-        light.corners.metres[2] = {0.1f, -0.1f}; // points inwards
+        light.corners.metres[2] = {0.1f, -0.1f}; // a concave corner
         scene.lights.push_back(light);
         x += 1.0;
     }
     return scene;
 }
 
-/// Of both sides of a quad.
+/// A double-sided material of any metalness.
 inline scenes::Material twoSidedMetal(double metallic, double perceptualRoughness) {
     scenes::Material metal = twoSided(metalOf(perceptualRoughness));
     metal.metallic = float(metallic);
@@ -58,8 +58,8 @@ inline scenes::Material velvet() {
     return material;
 }
 
-/// A floor in z = 0, and half way to a light 1 m above it a plate that hides all beyond x = edgeX. The camera looks
-/// down from below the plate.
+/// A floor in z = 0 and, halfway to a light 1 m above it, a plate that occludes everything beyond x = edgeX. The camera
+/// looks down from below the plate.
 inline scenes::Scene floorUnderAPlate(const scenes::Light& light, double edgeX, double halfHeightMetres) {
     scenes::Scene scene = quadScene(twoSided(lambert()));
     scenes::Node& plate = scene.nodes.emplace_back();
@@ -72,13 +72,13 @@ inline scenes::Scene floorUnderAPlate(const scenes::Light& light, double edgeX, 
     return scene;
 }
 
-/// Radiance of the middle of a quad of 2 x 2 m in z = 0, seen from `toViewer`, whatever lights hang before it.
+/// Measures the radiance at the centre of a 2 x 2 m quad in z = 0, viewed from `toViewer`; the lights are invisible.
 class MiddleOfQuadTest : public EnvironmentTest {
 protected:
     double seen(const scenes::Material& material, const std::vector<scenes::Light>& lights,
                 const glm::dvec3& toViewer = {0.0, 0.0, 1.0},
                 const std::optional<scenes::Environment>& environment = {}) {
-        // A renderer takes longer to make than such a picture.
+        // Reuses the renderer: creating one takes longer than drawing this image.
         if (!renderer_ || scene_.materials[0] != material || toViewer_ != toViewer || environment ||
             scene_.environment) {
             renderer_.reset();
@@ -94,7 +94,7 @@ protected:
         for (scenes::Light& light : scene_.lights) light.isSeen = false;
         return double(renderer_->render(engine::Technique::Deferred, ofSize(3, 3)).radiance[4 * 4]);
     }
-    /// k_d 1, without 1/pi: shows the irradiance.
+    /// k_d 1 without 1/pi: the radiance equals the irradiance.
     static scenes::Material matte() { return twoSided(lambert()); }
 
 private:

@@ -8,10 +8,10 @@
 #include "scenes/builtin/DiffusionTruth.h"
 #include "tests/image/ShadowTest.h"
 
-/// Light that spreads over surfaces: what its tests have in common.
+/// Shared scenes and fixtures of subsurface diffusion tests.
 namespace tessera::test {
 
-/// Seen from above by parallel rays: x to the right, -z up.
+/// An orthographic camera that looks straight down: x to the right, -z up.
 inline scenes::Camera above(const glm::dvec3& middleWS, double halfHeightMetres) {
     scenes::Camera camera;
     camera.name = "above";
@@ -25,11 +25,11 @@ inline scenes::Camera above(const glm::dvec3& middleWS, double halfHeightMetres)
 }
 
 struct TruthError {
-    double l2 = 0.0;     ///< of all channels, relative to the truth's own
-    double energy = 0.0; ///< sum of what is found over that of the truth
+    double l2 = 0.0;     ///< relative L2 error over all channels
+    double energy = 0.0; ///< sum over the image, relative to the sum of the truth
 };
 
-/// Compares a picture of `above(middle, halfHeight)` with what leaves at each pixel.
+/// Compares an image of `above(middle, halfHeight)` with the outgoing radiance truth(positionWS) at each pixel.
 template <typename Truth>
 TruthError errorOf(const Picture& picture, const scenes::Camera& camera, Truth truth) {
     double wrong = 0.0, whole = 0.0, found = 0.0, wanted = 0.0;
@@ -50,7 +50,7 @@ TruthError errorOf(const Picture& picture, const scenes::Camera& camera, Truth t
     return {std::sqrt(wrong / whole), found / wanted};
 }
 
-/// A sphere of six charts, each a side of a cube blown up; they lie apart in the texture.
+/// A sphere of six charts, each a cube face projected onto it; the charts do not touch in the texture.
 inline scenes::Mesh sixCharts(double radiusMetres, int steps) {
     scenes::Mesh mesh;
     for (int side = 0; side < 6; ++side) {
@@ -65,7 +65,7 @@ inline scenes::Mesh sixCharts(double radiusMetres, int steps) {
                 place[axis] = sign;
                 place[(axis + 1) % 3] = sign * a;
                 place[(axis + 2) % 3] = b;
-                // The same to the last bit from both sides of an edge.
+                // Rounded, so that both sides of an edge give identical bits.
                 const glm::dvec3 point = radiusMetres * place / std::sqrt(1.0 + (a * a + b * b));
                 mesh.positionsOS.emplace_back(glm::vec3(point * 1048576.0 + 0.0) / 1048576.0f);
                 mesh.normalsOS.emplace_back(glm::normalize(point));
@@ -79,7 +79,7 @@ inline scenes::Mesh sixCharts(double radiusMetres, int steps) {
                 mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
             }
     }
-    // Vertices of edges are computed on two sides: one place each.
+    // Merges edge vertices, which each adjacent chart computes.
     for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (glm::distance(mesh.positionsOS[i], mesh.positionsOS[j]) < 1e-4f * float(radiusMetres))
@@ -87,7 +87,7 @@ inline scenes::Mesh sixCharts(double radiusMetres, int steps) {
     return mesh;
 }
 
-/// The sphere under one sun, seen from +z.
+/// The sphere with texture-space diffusion under one sun from +z.
 inline scenes::Scene sphereScene(double radiusMetres, int steps) {
     scenes::Scene scene = ballUnderSun();
     scene.meshes = {sixCharts(radiusMetres, steps)};
@@ -106,7 +106,7 @@ inline scenes::Scene sphereScene(double radiusMetres, int steps) {
     return scene;
 }
 
-/// Stretches the first mesh's texture coordinates: u by `along` over x, v by 1 over z, askew by `shear`.
+/// Sets the first mesh's texture coordinates to `fromXZ` times (x, z) relative to the step's edge, plus 0.5.
 inline void mapTexture(scenes::Scene& scene, const glm::dmat2& fromXZ) {
     scenes::Mesh& mesh = scene.meshes[0];
     for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i) {
@@ -116,7 +116,7 @@ inline void mapTexture(scenes::Scene& scene, const glm::dmat2& fromXZ) {
     }
 }
 
-/// The step of the scene diffusion_truth, seen from above by 2/1024 m to either side.
+/// The irradiance step of the scene diffusion_truth, viewed from above; the image is 4/1024 m high.
 inline scenes::Scene stepScene() {
     scenes::Scene scene = scenes::loadScene("diffusion_truth");
     scene.cameras = {above({scenes::builtin::kTruthEdgeX, 0.0, 0.0}, 2.0 / 1024.0)};
@@ -125,7 +125,7 @@ inline scenes::Scene stepScene() {
 inline frame::FrameSettings stepSettings(int sideTexels) {
     return withDiffusion(ofSize(896, 8), sideTexels);
 }
-/// What leaves at a place of it.
+/// Closed-form outgoing radiance at a point of the step scene.
 inline glm::dvec3 stepAt(const glm::dvec3& placeWS) {
     return scenes::builtin::spreadStep(placeWS.x - scenes::builtin::kTruthEdgeX);
 }
@@ -141,15 +141,15 @@ protected:
         return pictureOf(renderer, settings);
     }
 
-    /// Of the step, with another mapping of the square's texture.
+    /// Error of the step scene, optionally with another texture mapping.
     TruthError stepError(int side, const std::function<void(scenes::Scene&)>& change = {},
                          shader::SourceTree shaders = shader::SourceTree()) {
         scenes::Scene scene = stepScene();
         if (change) change(scene);
         return errorOf(pictureOf(scene, stepSettings(side), std::move(shaders)), scene.cameras[0], stepAt);
     }
-    /// The same in an atlas of 256 texels for a profile of two Gaussians, so many texels wide, the first with a
-    /// twentieth of the light.
+    /// L2 error of the step in an atlas of 256 texels, for a profile of two Gaussians with these standard deviations in
+    /// texels. The narrow one carries a twentieth of the light.
     double stepErrorOf(double narrowTexels, double wideTexels, shader::SourceTree shaders = shader::SourceTree(),
                        const glm::dmat2& textureFromXZ = glm::dmat2(1.0)) {
         scenes::Scene scene = stepScene();
@@ -173,7 +173,7 @@ protected:
         };
         return errorOf(pictureOf(scene, stepSettings(kTexels), std::move(shaders)), scene.cameras[0], truth).l2;
     }
-    /// Of the step's mean along its edge, over 96 mm of the scene: the places of the edge within texels even out.
+    /// L2 error of the mean along the step's edge, over 96/1024 m: averages out the edge's positions within texels.
     double meanStepError(engine::Renderer& renderer, scenes::Scene& scene, frame::FrameSettings settings) {
         scene.cameras = {above({scenes::builtin::kTruthEdgeX, 0.0, 0.0}, 48.0 / 1024.0)};
         settings.sizePixels = {448, 96};
@@ -201,7 +201,7 @@ protected:
     }
 };
 
-/// What closed forms and the reference say of it.
+/// Comparisons with closed forms and the reference renderer.
 class DiffusionTruth : public DiffusionTest {};
 using DiffusionTruthSlow = DiffusionTruth;
 

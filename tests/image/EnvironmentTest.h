@@ -7,14 +7,14 @@
 #include "scenes/builtin/Pictures.h"
 #include "tests/image/ShadowTest.h"
 
-/// Light from everywhere: what its tests have in common.
+/// Shared scenes and fixtures of environment light tests.
 namespace tessera::test {
 
 inline scenes::Environment environmentOf(int width, int height, const std::function<glm::dvec3(int, int)>& radiance) {
     return {"test", scenes::builtin::drawRadiance("test", width, height, radiance)};
 }
 
-/// The same from everywhere.
+/// An environment of uniform radiance.
 inline scenes::Environment evenEnvironment(double radiance) {
     return environmentOf(1, 1, [&](int, int) { return glm::dvec3(radiance); });
 }
@@ -25,7 +25,7 @@ inline scenes::Environment builtinEnvironment(const std::string& name) {
     return scenes::loadEnvironment(std::string(scenes::kBuiltinPrefix) + name, ledger, warnings);
 }
 
-/// A sphere before an orthographic camera, which it fills.
+/// A sphere that fills an orthographic camera.
 inline scenes::Scene ballUnderSky(const scenes::Material& material) {
     scenes::Scene scene = quadScene(material);
     scene.meshes[0] = {};
@@ -47,7 +47,7 @@ protected:
     struct BallError {
         double bias, relMse;
     };
-    /// Of one channel, where the reference covers a pixel.
+    /// Bias and relative MSE of one channel over the pixels that the reference covers.
     static BallError errorOf(const std::vector<float>& radiance, const validation::ReferencePicture& truth,
                              std::size_t channel = 0) {
         double shown = 0.0, light = 0.0, squares = 0.0, count = 0.0;
@@ -61,7 +61,7 @@ protected:
         }
         return {shown / light - 1.0, squares / count};
     }
-    /// Of a picture of ballUnderSky() against the reference.
+    /// The same for an image of ballUnderSky() against the reference.
     BallError errorOfBall(const scenes::Scene& scene, int side, std::size_t channel) {
         const frame::FrameSettings settings = ofSize(side, side);
         return errorOf(drawn(scene, settings), strictReference(scene, settings), channel);

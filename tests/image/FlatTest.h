@@ -5,9 +5,9 @@
 
 namespace tessera::test {
 
-inline constexpr int kSide = 8; ///< pixels of a picture, and texels of its texture
+inline constexpr int kSide = 8; ///< side of an image in pixels, and of its texture in texels
 
-/// The quad seen by an orthographic camera that it fills exactly: pixel (x, y) is texel (x, y).
+/// A quad that exactly fills the image of an orthographic camera: pixel (x, y) is texel (x, y).
 class FlatTest : public ImageTest {
 protected:
     static scenes::Scene flatScene(const scenes::Material& material) {
@@ -36,7 +36,7 @@ protected:
     glm::vec4 center(const scenes::Scene& scene) { return pixel(frame(scene), kSide / 2, kSide / 2); }
 };
 
-/// A picture whose texel (x, y) is value(x, y).
+/// An image whose texel (x, y) is value(x, y).
 template <class Value>
 scenes::Image image8(Value value) {
     scenes::Image image;
@@ -64,7 +64,7 @@ inline scenes::Image floatImage(int width, const std::vector<glm::vec4>& texels)
 inline scenes::Image floatImage(const glm::vec4& texel) {
     return floatImage(1, {texel});
 }
-/// Every texel has its own colour: red encodes its column, green its row.
+/// An image with a different colour per texel: red encodes the column, green the row.
 inline scenes::Image mapImage() {
     return image8([](int x, int y) { return std::array<int, 4>{30 * x, 30 * y, 0, 255}; });
 }

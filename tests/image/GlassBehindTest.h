@@ -7,15 +7,15 @@
 #include "tests/image/FlatTest.h"
 #include "tests/image/GlassTest.h"
 
-/// What bodies of glass show of what stands behind them: what its tests have in common.
+/// Shared scenes and fixtures of tests of the refracted background of glass.
 namespace tessera::test {
 
-inline constexpr int kBehindPixels = 48;                          ///< side of a picture, which spans 2 m
+inline constexpr int kBehindPixels = 48;                          ///< side of an image, which spans 2 m
 inline constexpr double kBehindPixelMetres = 2.0 / kBehindPixels; ///< orthographic
 inline constexpr double kBehindWallMetres = 2.0;                  ///< behind z = 0
 inline constexpr double kBehindTiltRadians = 0.5;                 ///< of the glass, about y: its left edge comes nearer
 
-/// Of the metres to either side of x = 0 that two texels are apart, so that what lies between is a ramp of 0 to 1.
+/// Two texels; linear filtering makes a ramp of 0 to 1 between their centres.
 inline scenes::Image rampImage() {
     return floatImage(2, {{0.0f, 0.25f, 1.0f, 1.0f}, {1.0f, 0.75f, 0.0f, 1.0f}});
 }
@@ -34,7 +34,7 @@ inline void placeQuad(scenes::Node& node, double z, double halfMetres, double ti
     placed[3] = {0.0, 0.0, z, 1.0};
 }
 
-/// A wall that shines by itself, and fills the picture.
+/// An unlit wall that fills the image.
 inline scenes::Scene wallScene(scenes::Image image, double halfMetres) {
     scenes::Scene scene = texturedScene(quadScene(unlit()), scenes::TextureSlot::BaseColor, std::move(image));
     makeOrthographic(scene.cameras[0], 1.0);
@@ -47,7 +47,7 @@ inline scenes::Scene checkedWall() {
     return wallScene(checkerImage(), 1.5);
 }
 
-/// Its colours change evenly along x.
+/// A wall whose colours are linear in x.
 inline scenes::Scene rampWall() {
     scenes::Scene scene = wallScene(rampImage(), 4.0);
     scenes::Sampler& sampler = scene.materials[0].texture(scenes::TextureSlot::BaseColor).sampler;
@@ -55,20 +55,20 @@ inline scenes::Scene rampWall() {
     return scene;
 }
 
-/// The scene with a quad of glass before it, wider than the picture.
+/// Covers the scene with a quad of glass that is wider than the image.
 inline scenes::Scene coveredByGlass(scenes::Scene scene, const scenes::Material& glass, double tiltRadians = 0.0,
                                     double halfMetres = 4.0) {
     placeQuad(addNode(scene, glass), 0.0, halfMetres, tiltRadians);
     return scene;
 }
 
-/// With a near and a far side along each other: the way that light is moved aside, by Snell's law.
+/// Lateral offset of a ray through a slab with parallel faces, by Snell's law; `radians` is the angle of incidence.
 inline double asideMetres(double thicknessMetres, double ior, double radians) {
     const double inside = std::asin(std::sin(radians) / ior);
     return thicknessMetres * std::sin(radians) * (1.0 - std::cos(radians) / (ior * std::cos(inside)));
 }
 
-/// Orthographic pictures of walls and of what stands before them.
+/// Orthographic images of walls behind glass.
 class GlassBehindTest : public GlassTest {
 protected:
     static frame::FrameSettings seeing(frame::Refraction refraction, int samples = 1) {
@@ -83,8 +83,8 @@ protected:
         return {pixel[0], pixel[1], pixel[2]};
     }
     static double metresOf(int pixel) { return (pixel + 0.5) * kBehindPixelMetres - 1.0; }
-    /// Expects pixels to show those places of a ramp's wall, in metres along x, for which `placeOf` has one, up to a
-    /// part of a pixel of the ramp and a difference; returns how many.
+    /// Expects each pixel with a placeOf(x, y) to show that place of the ramp wall, in metres along x, within `pixels`
+    /// pixels of the ramp plus `difference`. Returns the number of pixels compared.
     template <typename PlaceOf>
     static int expectPlaces(const std::vector<float>& shown, const std::vector<float>& plain, double pixels,
                             double difference, const PlaceOf& placeOf) {
@@ -102,7 +102,7 @@ protected:
             }
         return judged;
     }
-    /// Of a picture whose colours change evenly along x.
+    /// Colour at x = `metres` in row y of an image whose colours are linear in x.
     static glm::dvec3 evenlyAt(const std::vector<float>& picture, double metres, int y) {
         const glm::dvec3 left = at(picture, 0, y), right = at(picture, kBehindPixels - 1, y);
         const double share = (metres - metresOf(0)) / (metresOf(kBehindPixels - 1) - metresOf(0));

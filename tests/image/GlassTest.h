@@ -6,10 +6,10 @@
 
 #include "tests/image/PlaneUnderSky.h"
 
-/// Light that passes through surfaces: what its tests have in common.
+/// Shared materials, scenes and fixtures of transmission tests.
 namespace tessera::test {
 
-inline constexpr double kGlassRounding = 2e-6; ///< relative, of a few operations in fp32
+inline constexpr double kGlassRounding = 2e-6; ///< relative error of a few fp32 operations
 
 inline scenes::Material clearGlass() {
     scenes::Material glass;
@@ -20,7 +20,7 @@ inline scenes::Material clearGlass() {
     return glass;
 }
 
-/// Without a reflection.
+/// Glass without reflection.
 inline scenes::Material bareGlass(double ior, double roughness = 0.0) {
     scenes::Material glass = clearGlass();
     glass.specularFactor = 0.0f;
@@ -30,11 +30,11 @@ inline scenes::Material bareGlass(double ior, double roughness = 0.0) {
     return glass;
 }
 
-/// Planes of glass; the picture of the steep one reaches grazing angles.
+/// Planes of glass; the image of kSteepGlass reaches grazing angles.
 inline constexpr int kGlassPixels = 48;
 inline constexpr TiltedPlane kTiltedGlass{0.6, 90.0, 1.6, kGlassPixels}, kSteepGlass{1.0, 90.0, 1.6, kGlassPixels};
 
-/// Smooth in all directions.
+/// A sky radiance that is smooth in all directions.
 inline double smoothSky(int x, int y) {
     constexpr double kTurn = 2.0 * std::numbers::pi;
     return 1.0 + 0.5 * std::sin(3.0 * kTurn * (x + 0.5) / kSkyWidth) * std::sin(0.5 * kTurn * (y + 0.5) / kSkyHeight) +
@@ -47,7 +47,7 @@ inline scenes::Scene glassUnderSky(const scenes::Material& glass, const TiltedPl
     return scene;
 }
 
-/// Snell's law by angles; nothing where all is reflected. An index of 0 is one without bound.
+/// Refracts by Snell's law with angles; none at total internal reflection. An index of 0 stands for an infinite one.
 inline std::optional<glm::dvec3> bentDirection(const glm::dvec3& toViewer, double ior,
                                                const glm::dvec3& normal = kTiltedGlass.normal()) {
     if (ior == 0.0) return -normal;
@@ -57,7 +57,7 @@ inline std::optional<glm::dvec3> bentDirection(const glm::dvec3& toViewer, doubl
     return -std::cos(std::asin(bentSine)) * normal - bentSine * along;
 }
 
-/// A body and a sheet before a surface, in the light of a lamp.
+/// A volume and a thin sheet of glass in front of a surface, lit by a point light.
 inline scenes::Scene fewWithGlass() {
     scenes::Material matte;
     matte.metallic = 0.0f;

@@ -12,10 +12,10 @@ inline constexpr std::string_view kSurfaceHeader = "void hookSurface(inout Hooke
 inline constexpr std::string_view kVertexHeader =
     "void hookVertex(inout vec3 positionOS, inout vec3 normalOS, vec2 uv)\n";
 
-/// Draws scenes with hooks that a test writes.
+/// Renders scenes with hooks written by the test.
 class HookTest : public ShadowTest {
 protected:
-    /// The scene with a hook of all its materials, which has a parameter `strength` and this body of hookSurface.
+    /// Adds a hook of all materials to the scene, with this body of hookSurface and a parameter `strength`.
     scenes::Scene hooked(scenes::Scene scene, std::string_view body, float strength = 0.7f) {
         scenes::Hook& hook = scene.hook.emplace();
         setText(hook, std::string(kSurfaceHeader).append(body));
@@ -33,7 +33,7 @@ protected:
         return ShadowTest::drawn(scene, settings, technique);
     }
 
-    /// Writes the text to a file of its own, and makes that the hook's.
+    /// Writes the text to a new file and sets it as the hook's source.
     void setText(scenes::Hook& hook, const std::string& text) {
         hook.file = folder.write(fmt::format("{}.glsl", files_++), text).string();
         hook.contentHash = scenes::fingerprint(std::as_bytes(std::span(text)));

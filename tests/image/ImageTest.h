@@ -19,7 +19,7 @@
 #include "tests/support/TestScenes.h"
 #include "validation/compare/ReferencePicture.h"
 
-/// What tests of pictures share: settings, parts of scenes, and pictures of both renderers.
+/// Shared by image tests: settings, scene parts, and images of the engine and the reference renderer.
 namespace tessera::test {
 
 inline constexpr scenes::ShadowRequest kAllLightsCast{scenes::ShadowRequest::Kind::All};
@@ -32,7 +32,7 @@ inline frame::FrameSettings ofSize(const glm::ivec2& sizePixels) {
 inline frame::FrameSettings ofSize(int width, int height) {
     return ofSize(glm::ivec2(width, height));
 }
-/// With textures filtered as the reference filters them.
+/// Settings with the texture filter of the reference.
 inline frame::FrameSettings exactOfSize(int width, int height) {
     frame::FrameSettings settings = ofSize(width, height);
     settings.filter = frame::TextureFilter::Exact;
@@ -43,12 +43,12 @@ inline frame::FrameSettings withView(frame::FrameSettings settings, frame::Debug
     settings.view = view;
     return settings;
 }
-/// Of a pixel.
+/// Sets the samples per pixel.
 inline frame::FrameSettings withSamples(frame::FrameSettings settings, int samples) {
     settings.samples = samples;
     return settings;
 }
-/// Of all lights.
+/// Enables the shadows of all lights.
 inline frame::FrameSettings withShadows(frame::FrameSettings settings,
                                         frame::ShadowFilter filter = frame::ShadowFilter::Traced) {
     settings.shadows = kAllLightsCast;
@@ -59,7 +59,7 @@ inline frame::FrameSettings withoutShadows(frame::FrameSettings settings) {
     settings.shadows = {scenes::ShadowRequest::Kind::None};
     return settings;
 }
-/// Of an atlas with so many texels a side.
+/// Sets the side of the diffusion atlas in texels.
 inline frame::FrameSettings withDiffusion(frame::FrameSettings settings,
                                           int sideTexels = coarseDiffusion().sideTexels) {
     settings.diffusion.sideTexels = sideTexels;
@@ -88,7 +88,7 @@ inline scenes::Material metalOf(double perceptualRoughness) {
     return metal;
 }
 
-/// Black below its reflection.
+/// A dielectric without diffuse reflection.
 inline scenes::Material blackDielectric(double perceptualRoughness = 1.0) {
     scenes::Material material = metalOf(perceptualRoughness);
     material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
@@ -96,7 +96,7 @@ inline scenes::Material blackDielectric(double perceptualRoughness = 1.0) {
     return material;
 }
 
-/// A directional light; any length of the direction will do.
+/// A directional light; `directionWS` may have any length.
 inline scenes::Light sunLight(const glm::dvec3& directionWS, float intensity = 1.0f) {
     scenes::Light sun = pointLight({}, intensity);
     sun.name = "sun";
@@ -110,11 +110,11 @@ inline void makeOrthographic(scenes::Camera& camera, double halfHeightMetres) {
     camera.halfHeightMetres = halfHeightMetres;
 }
 
-/// A unit direction at that cosine to +z, towards +x.
+/// The unit direction at this cosine to +z, towards +x.
 inline glm::dvec3 atCosine(double cosine) {
     return {std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
 }
-/// Parallel rays to the origin, from 2 m away at that cosine to +z.
+/// Sets an orthographic camera that looks at the origin from 2 m, at this cosine to +z.
 inline void lookAtCosine(scenes::Camera& camera, double cosView, double halfHeightMetres) {
     makeOrthographic(camera, halfHeightMetres);
     const double sine = std::sqrt(1.0 - cosView * cosView);
@@ -124,14 +124,14 @@ inline void lookAtCosine(scenes::Camera& camera, double cosView, double halfHeig
     camera.worldFromCamera[3] = {2.0 * sine, 0.0, 2.0 * cosView, 1.0};
 }
 
-/// The built-in scene `lattice` with so many lights.
+/// The built-in scene `lattice` with this number of lights.
 inline scenes::Scene latticeOf(int lights) {
     scenes::LoadOptions options;
     options.lights = lights;
     return scenes::loadScene("lattice", options);
 }
 
-/// Adds a node with the first mesh, of a material of its own.
+/// Adds a node with the first mesh and a new material.
 inline scenes::Node& addNode(scenes::Scene& scene, const scenes::Material& material,
                              const glm::dmat4& worldFromNode = glm::dmat4(1.0)) {
     scene.materials.push_back(material);
@@ -141,7 +141,7 @@ inline scenes::Node& addNode(scenes::Scene& scene, const scenes::Material& mater
     return scene.nodes.emplace_back(std::move(node));
 }
 
-/// The reference's picture by its definition alone: no tolerance for rounding, nor for noise.
+/// The reference image by definition alone: no tolerance for rounding or noise.
 template <typename SceneOrRenderer>
 validation::ReferencePicture strictReference(SceneOrRenderer& of, const frame::FrameSettings& settings) {
     return validation::referencePicture(
@@ -157,7 +157,7 @@ inline const float* pixelAt(const std::vector<float>& radiance, int width, int x
     return &radiance[4 * (std::size_t(y) * std::size_t(width) + std::size_t(x))];
 }
 
-/// Interpolates between the four values around a place, of which whole numbers are values.
+/// Bilinear interpolation at `place`; at(x, y) returns the values at integer coordinates.
 template <typename At>
 double interpolated(const glm::dvec2& place, const At& at) {
     const glm::dvec2 corner = glm::floor(place), share = place - corner;
@@ -166,7 +166,7 @@ double interpolated(const glm::dvec2& place, const At& at) {
                      share.y);
 }
 
-/// All values that the programs of a frame give a definition.
+/// Returns all values of a preprocessor definition in the programs of a frame.
 inline std::vector<std::string> definedValues(const scenes::Scene& scene, std::string_view definition,
                                               engine::Technique technique = engine::Technique::Deferred,
                                               const frame::FrameSettings& settings = {}) {
@@ -177,7 +177,7 @@ inline std::vector<std::string> definedValues(const scenes::Scene& scene, std::s
     return values;
 }
 
-/// Draws each picture with a renderer of its own.
+/// Renders each image with a new renderer.
 class ImageTest : public GlTest {
 protected:
     engine::RenderedFrame frameOf(const scenes::Scene& scene, const frame::FrameSettings& settings,

@@ -5,7 +5,7 @@
 
 namespace tessera::test {
 
-/// Pictures of several samples a pixel.
+/// Images with several samples per pixel.
 class MultisamplingTest : public ImageTest {
 protected:
     static frame::FrameSettings sampled(glm::ivec2 sizePixels, int samples = 4) {

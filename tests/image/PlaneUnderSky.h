@@ -5,14 +5,14 @@
 
 #include "tests/image/EnvironmentTest.h"
 
-/// A plane under a sky, and in double precision where each pixel looks and what the sky shows there.
+/// A plane under a sky, with the view direction and sky radiance of each pixel in double precision.
 namespace tessera::test {
 
-/// A plane through the origin, tilted about x, that fills the picture: seen from z = 3 through a wide lens.
+/// A plane through the origin, tilted about x, that fills the image of a wide-angle camera at z = 3.
 struct TiltedPlane {
     double tiltRadians, halfSideMetres;
     double fovYRadians; ///< of the camera
-    int sidePixels;     ///< of the picture
+    int sidePixels;     ///< of the image
 
     scenes::Scene sceneOf(const scenes::Material& material) const {
         scenes::Scene scene = quadScene(material);
@@ -28,7 +28,7 @@ struct TiltedPlane {
         return scene;
     }
     glm::dvec3 normal() const { return {0.0, std::sin(tiltRadians), std::cos(tiltRadians)}; }
-    /// Unit, from the plane towards the viewer, of the middle of a pixel; row 0 is at the top.
+    /// The unit vector from the plane towards the viewer at the centre of a pixel; row 0 is at the top.
     glm::dvec3 toViewer(int x, int y) const {
         const double half = std::tan(0.5 * fovYRadians) / sidePixels;
         return -glm::normalize(
@@ -36,16 +36,16 @@ struct TiltedPlane {
     }
 };
 
-inline constexpr int kSkyWidth = 256, kSkyHeight = 128; ///< texels of its map
+inline constexpr int kSkyWidth = 256, kSkyHeight = 128; ///< texels of the environment map
 
-/// The radiance of a sky by column and row of its map.
+/// The sky radiance by column and row of its map.
 using SkyRadiance = std::function<double(int, int)>;
 
 inline scenes::Environment skyOf(const SkyRadiance& sky) {
     return environmentOf(kSkyWidth, kSkyHeight, [&](int x, int y) { return glm::dvec3(sky(x, y)); });
 }
 
-/// What a sky shows in a direction, interpolated between the texels around it, and the extremes of those.
+/// Sky radiance in a direction, interpolated, with the minimum and maximum of the texels around it.
 struct SeenSky {
     double radiance, least, most;
 };
@@ -55,7 +55,7 @@ inline SeenSky seenOfSky(const SkyRadiance& sky, const glm::dvec3& direction) {
     const auto at = [&](int x, int y) { return sky((x + kSkyWidth) % kSkyWidth, std::clamp(y, 0, kSkyHeight - 1)); };
     SeenSky seen{};
     seen.radiance = interpolated(place, at);
-    // A texel more on each side, as rounding may move the place across an edge.
+    // One texel more on each side: rounding may move the lookup across a texel edge.
     seen.least = seen.most = seen.radiance;
     for (int j = -1; j <= 2; ++j)
         for (int i = -1; i <= 2; ++i) {

@@ -6,18 +6,18 @@
 #include "tests/image/ShadowTest.h"
 #include "tests/support/AreaLights.h"
 
-/// Lights that are seen themselves, and pictures of them.
+/// Visible area lights and images of them.
 namespace tessera::test {
 
-inline constexpr glm::vec3 kShown(5.0f, 2.5f, 1.25f); ///< the radiance of seenLamp()
+inline constexpr glm::vec3 kShown(5.0f, 2.5f, 1.25f); ///< radiance of seenLamp()
 
-/// A rectangle of 1 x 0.6 m without one of its corners.
+/// Area of the L of ellCorners(), a rectangle of 1 x 0.6 m without one corner.
 inline constexpr double kEllSquareMetres = 0.52;
 inline scenes::LightCorners ellCorners() {
     return cornersOf({{-0.5f, -0.3f}, {0.5f, -0.3f}, {0.5f, 0.1f}, {0.1f, 0.1f}, {0.1f, 0.3f}, {-0.5f, 0.3f}});
 }
 
-/// At a place, turned to +z, 1 m wide and 0.6 m high or long, or of a radius of 0.4 m; a polygon is an L.
+/// A lamp facing +z, 1 m wide and 0.6 m high or long, or of radius 0.4 m; a polygon is an L.
 inline scenes::Light seenLamp(scenes::LightType type, const glm::dvec3& positionWS) {
     scenes::Light light;
     light.type = type;
@@ -31,7 +31,7 @@ inline scenes::Light seenLamp(scenes::LightType type, const glm::dvec3& position
     return light;
 }
 
-/// Turned to any direction, with its width anywhere across it.
+/// A lamp facing any direction; its width axis is an arbitrary perpendicular.
 inline scenes::Light turnedLamp(scenes::LightType type, const glm::dvec3& positionWS, const glm::dvec3& directionWS) {
     scenes::Light light = seenLamp(type, positionWS);
     light.directionWS = glm::normalize(directionWS);
@@ -40,7 +40,7 @@ inline scenes::Light turnedLamp(scenes::LightType type, const glm::dvec3& positi
     return light;
 }
 
-/// Pictures in which lights are seen.
+/// Images with visible area lights.
 class SeenLightTest : public ShadowTest {
 protected:
     static std::size_t shownPixels(const engine::RenderedFrame& frame) {

@@ -90,8 +90,8 @@ WrongPixels& WrongPixels::operator+=(const WrongPixels& other) {
 
 namespace {
 
-/// Whether a pixel lies beside one of another object, hardly further away: as far as a surface that is seen under 80
-/// degrees goes in two pixels of a picture of 60 degrees.
+/// Whether a neighbouring pixel shows another object at a similar depth. The limit is the depth change of a surface
+/// seen at 80 degrees incidence over two pixels of an image with a 60 degree field of view.
 bool isAtContact(const std::vector<reference::Ids>& ids, const std::vector<float>& depths, int width, int height,
                  std::size_t pixel) {
     const int x = int(pixel) % width, y = int(pixel) / width;
@@ -130,7 +130,7 @@ WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& 
     WrongPixels count;
     std::vector<char> isHidden(shown.pixelCount(), 0), isDark(shown.pixelCount(), 0);
     for (std::size_t i = 0; i < shown.pixelCount(); ++i) {
-        // The same triangle, or an edge that rounding moves.
+        // Compares only pixels that show the reference's triangle: rounding moves edges.
         if (!truth.picture.covered[i] || ids.radiance[4 * i] != float(truth.ids[i].object) ||
             ids.radiance[4 * i + 1] != float(truth.ids[i].triangle))
             continue;
@@ -139,7 +139,7 @@ WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& 
         for (std::size_t c = 0; c < 3; ++c) {
             const double expected = double(nearest.rgba[4 * i + c]);
             largest = std::max(largest, std::abs(expected));
-            // What is no number is as far as can be.
+            // NaN counts as infinitely far.
             const double off = std::abs(double(shown.rgba[4 * i + c]) - expected);
             farthest = std::isnan(off) ? HUGE_VAL : std::max(farthest, off);
             darkest = std::max(darkest, expected - double(shown.rgba[4 * i + c]));
@@ -149,7 +149,7 @@ WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& 
             changed = std::max(changed,
                                std::abs(double(lit.picture.rgba[4 * i + c]) - double(truth.picture.rgba[4 * i + c])));
         }
-        // Not by shadows, but where rounding chooses another texel.
+        // Differs without shadows too: rounding chooses another texel.
         const bool isWrongWithout = wrongWithout > 0.01 * std::max(largestLit, 1e-4);
         count.wrongWithout += isWrongWithout;
         isDark[i] = !isWrongWithout && darkest > 0.01 * std::max(largest, 1e-4);
@@ -167,7 +167,7 @@ WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSettings& 
     for (int y = 0; y < shown.height; ++y)
         for (int x = 0; x < shown.width; ++x) {
             if (!isDark[std::size_t(y * shown.width + x)]) continue;
-            // Behind another object the shadow may go on.
+            // The shadow may continue behind another object.
             const std::size_t own = std::size_t(y * shown.width + x);
             bool isBesideShadow = false;
             for (int v = std::max(y - 1, 0); v <= std::min(y + 1, shown.height - 1); ++v)

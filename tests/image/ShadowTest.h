@@ -4,17 +4,17 @@
 
 #include "tests/image/ImageTest.h"
 
-/// What tests of shadows have in common, traced or in maps.
+/// Shared scenes and fixtures of tests of traced and mapped shadows.
 namespace tessera::test {
 
 struct ShadowCase {
     const char* scene;
     std::optional<int> lights;
     scenes::ShadowRequest shadows;
-    // Of the covered pixels of settingsOf(), as measured.
-    double undecidedShare; ///< rounding decides whether some light is hidden, with exact terminators
-    double softenedShare;  ///< the same with softened ones, of whose heights a pixel holds 8 bits
-    double wrongShare;     ///< with `hard` and 1024 texels
+    // Measured fractions of the covered pixels of settingsOf().
+    double undecidedShare; ///< the visibility of some light depends on rounding, with exact terminators
+    double softenedShare;  ///< the same with softened terminators, whose heights have 8 bits per pixel
+    double wrongShare;     ///< wrong with filter `hard` and 1024 texels
 };
 inline constexpr ShadowCase kShadowCases[] = {
     {"lattice", 16, kAllLightsCast, 0.0039, 0.0011, 0.00015},
@@ -22,39 +22,38 @@ inline constexpr ShadowCase kShadowCases[] = {
     {"hall", {}, {scenes::ShadowRequest::Kind::Asked}, 0.0028, 0.0015, 0.0036}};
 
 scenes::Scene sceneOf(const ShadowCase& tried);
-/// As its wrong pixels are counted: 240x135, with textures that the reference has to the last digits.
+/// Settings for counting wrong pixels: 240x135, with texture values exactly as in the reference.
 frame::FrameSettings settingsOf(const ShadowCase& tried);
 
-/// The filters that look maps up.
+/// The filters that read shadow maps.
 std::vector<frame::ShadowFilter> mapFilters();
 
 /// A ball on a floor under one sun.
 scenes::Scene ballUnderSun();
-/// Where the light of sun i of so many travels: even in the angle from straight above, to 89 degrees, a golden angle
-/// apart.
+/// Direction of travel of the light of sun i of `count`: angles from vertical evenly spaced up to 89 degrees, azimuths
+/// a golden angle apart.
 glm::dvec3 sunDirection(int i, int count);
 
 class ShadowTest : public ImageTest {
 protected:
-    /// Expects that all techniques draw what forward does.
+    /// Expects all techniques to render the same image as forward.
     void expectParity(engine::Renderer& renderer, const frame::FrameSettings& settings,
                       std::vector<engine::Technique> techniques = {});
-    /// Expects that a technique draws the same bits pruned and not.
+    /// Expects identical bits with and without pruning.
     void expectPruningIsUnseen(engine::Renderer& renderer, frame::FrameSettings settings,
                                engine::Technique technique = engine::Technique::Deferred);
 };
 
-/// Of a picture against the reference: those that are lit where they should be hidden or the reverse.
+/// Counts of shadow errors of an image against the reference.
 struct WrongPixels {
-    std::size_t wrong = 0; ///< farther from the definition than a hundredth, whatever rounding allows
-    std::size_t dark = 0;  ///< those among them that are too dark, while the pixels beside them are of the same object
-                           ///< and no shadow changes them
-    std::size_t leaks = 0; ///< those among them that are too light
-    std::size_t leaksAtContacts = 0, darkAtContacts = 0; ///< those too light and too dark where two objects meet
-    std::size_t undecided = 0;                           ///< rounding decides whether some light is hidden
-    std::size_t hidden = 0;                              ///< shadows change them
-    std::size_t wrongWithout = 0; ///< differ without shadows already, and are not counted as wrong
-    std::size_t reached = 0;      ///< some light would give them something if nothing hid it
+    std::size_t wrong = 0; ///< off by more than a hundredth from every value that rounding allows
+    std::size_t dark = 0;  ///< wrong and too dark, with neither a shadow nor another object in the 3x3 pixels
+    std::size_t leaks = 0; ///< wrong and too bright
+    std::size_t leaksAtContacts = 0, darkAtContacts = 0; ///< too bright or too dark where two objects meet
+    std::size_t undecided = 0;                           ///< the visibility of some light depends on rounding
+    std::size_t hidden = 0;                              ///< changed by shadows
+    std::size_t wrongWithout = 0;                        ///< differ already without shadows; not counted as wrong
+    std::size_t reached = 0;                             ///< lit by some light without shadows
     std::size_t covered = 0;
     WrongPixels& operator+=(const WrongPixels& other);
     std::string text() const {
@@ -63,7 +62,7 @@ struct WrongPixels {
     }
 };
 
-/// What pictures with shadows are compared with.
+/// Reference images with and without shadows.
 struct ShadowReference {
     validation::ReferencePicture shadowed, lit;
 };
@@ -74,7 +73,7 @@ inline WrongPixels wrongPixels(engine::Renderer& renderer, const frame::FrameSet
     return wrongPixels(renderer, settings, shadowReference(renderer.scene(), settings));
 }
 
-/// Sums them over so many directions of the first light of the renderer's scene, which is `scene`.
+/// Sums wrongPixels() over `directions` directions of the first light of `scene`, which is the renderer's scene.
 WrongPixels wrongUnderSuns(engine::Renderer& renderer, scenes::Scene& scene, const frame::FrameSettings& settings,
                            int directions);
 

@@ -54,7 +54,7 @@ inline double distribution(double alphaX, double alphaY, const glm::dvec3& m) {
     return chi(m.z) / (std::numbers::pi * alphaX * alphaY * squared(spread));
 }
 
-/// The alpha that a lobe with two of them has along the projection of a direction. Heitz 2014, section 5.3.
+/// The alpha of an anisotropic lobe along the projection of a direction. Heitz 2014, section 5.3.
 inline double alphaAlong(double alphaX, double alphaY, const glm::dvec3& direction) {
     const double flat = squared(direction.x) + squared(direction.y);
     if (flat == 0.0) return std::sqrt(0.5 * (squared(alphaX) + squared(alphaY)));
@@ -89,7 +89,7 @@ inline double sheen(double alpha, const glm::dvec3& l, const glm::dvec3& v, cons
     return d / ((1.0 + sheenLambda(v.z, alpha) + sheenLambda(l.z, alpha)) * 4.0 * v.z * l.z);
 }
 
-/// What a white sheen reflects of light from a direction: the integral itself.
+/// Directional albedo of a white sheen, by numerical integration.
 inline double sheenEnergy(double alpha, double cosine) {
     constexpr int kSteps = 128;
     const glm::dvec3 v(std::sqrt(1.0 - squared(cosine)), 0.0, cosine);
@@ -105,7 +105,7 @@ inline double sheenEnergy(double alpha, double cosine) {
     return std::min(1.0, sum * squared(std::numbers::pi / kSteps));
 }
 
-/// The same from a table of 1/256 steps of the cosine, made the first time an alpha is asked for.
+/// The same from a table with cosine steps of 1/256, built at the first use of an alpha.
 inline double tabledSheenEnergy(double alpha, double cosine) {
     constexpr int kSteps = 256;
     static std::map<double, std::vector<double>> tables;
@@ -117,7 +117,7 @@ inline double tabledSheenEnergy(double alpha, double cosine) {
     return std::lerp(table[below], table[below + 1], at - double(below));
 }
 
-/// Blinn-Phong with its highlight as it is, no cosine. Blinn 1977.
+/// Blinn-Phong; the highlight has no cosine factor. Blinn 1977.
 inline glm::dvec3 blinnPhong(const scenes::Material& m, double nl, double nv, double nh) {
     const double highlight = nv > 0.0 ? std::pow(nh, double(m.exponent)) : 0.0;
     return glm::dvec3(m.baseColor) * nl + glm::dvec3(m.specularColor) * highlight;
@@ -136,7 +136,7 @@ inline double gltfLobe(double alphaT, double alphaB, const glm::dvec3& l, const 
     return distribution(alphaT, alphaB, h) / (1.0 + lambda(l) + lambda(v)) / (4.0 * l.z * v.z);
 }
 
-/// What reflected() is of a material without a subsurface.
+/// reflected() for materials without subsurface scattering.
 inline glm::dvec3 reflectedAtOnce(const scenes::Material& m, const glm::dvec3& n, const glm::dvec3& l,
                                   const glm::dvec3& v, const glm::dvec3& tangent) {
     const double nl = glm::dot(n, l), nv = glm::dot(n, v);
@@ -180,14 +180,14 @@ inline glm::dvec3 reflectedAtOnce(const scenes::Material& m, const glm::dvec3& n
         if (nv > 0.0) share += hairs * sheen(hairAlpha, local(l), local(v), local(h));
     }
     if (m.clearcoat == 0.0f) return share * nl;
-    // KHR_materials_clearcoat: a second lobe of ior 1.5, by the angle to the normal.
+    // KHR_materials_clearcoat: a second lobe of ior 1.5, with Fresnel by the angle to the normal.
     const double coatAlpha = std::max(squared(m.clearcoatPerceptualRoughness), 1e-3);
     const double coat =
         nv > 0.0 ? distribution(coatAlpha, nh) * correlatedMasking(coatAlpha, nl, nv) / (4.0 * nl * nv) : 0.0;
     return glm::mix(share, glm::dvec3(coat), coatWeight(m, nv)) * nl;
 }
 
-/// Of a cosine of 1, the share of the light that enters a surface and leaves it to the viewer, for each solid angle.
+/// Fraction of the light that enters a surface and leaves it towards the viewer, per solid angle, without n.l.
 inline glm::dvec3 entering(const scenes::Material& m, double nl, double nv, double lh) {
     const glm::dvec3 base(m.baseColor);
     if (m.model != scenes::MaterialModel::MetallicRoughness) return base;
@@ -203,8 +203,8 @@ inline glm::dvec3 entering(const scenes::Material& m, double nl, double nv, doub
     return share * (1.0 - strongest * std::max(tabledSheenEnergy(hairAlpha, nl), tabledSheenEnergy(hairAlpha, nv)));
 }
 
-/// The model's outgoing radiance for unit incident intensity, for materials without textures. `tangent` is that of the
-/// surface before the material turns it.
+/// The model's outgoing radiance for unit incident intensity, for materials without textures. `tangent` is the surface
+/// tangent before the material rotates it.
 inline glm::dvec3 reflected(const scenes::Material& m, const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v,
                             const glm::dvec3& tangent = {1, 0, 0}) {
     const glm::dvec3 atOnce = reflectedAtOnce(m, n, l, v, tangent);

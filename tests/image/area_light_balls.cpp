@@ -11,16 +11,16 @@ using namespace test;
 
 class AreaLightBalls : public EnvironmentTest {
 protected:
-    /// Of the picture of a ball against the integral over a light.
+    /// Error of an image of a ball against the integral over the light.
     BallError onBall(const scenes::Material& material, LightType type) {
         scenes::Scene scene = ballUnderSky(material);
         scene.lights = {areaLight(type, {1.2, 1.5, 2.0}, {-1.2, -1.5, -2.0}, 1.0f)};
-        scene.lights[0].isSeen = false; // the corner of a rectangle reaches into the picture
+        scene.lights[0].isSeen = false; // a corner of the rectangle would be visible in the image
         return errorOfBall(scene, 48, 0);
     }
 };
 
-/// For every type, roughness by roughness, or each with some: types differ in their outlines alone.
+/// Every type at each roughness, or at one in a short sweep: types differ only in their outlines.
 TEST_SWEEP(AreaLightBalls, onABallIsNearTheIntegralOverTheLight) {
     using enum LightType;
     std::vector<std::pair<LightType, double>> balls{
@@ -34,14 +34,14 @@ TEST_SWEEP(AreaLightBalls, onABallIsNearTheIntegralOverTheLight) {
         const BallError error = onBall(metalOf(roughness), type);
         fmt::print("{:9} roughness {:.2f} bias {:+.1e} relMSE {:.1e}\n", scenes::infoOf(type).name, roughness,
                    error.bias, error.relMse);
-        // The shapes of lobes: the worst is half as large. A mirror has the outline alone, of which pixels may differ.
+        // Limits for lobe shapes: twice the worst error. A mirror shows only the outline, where pixels may differ.
         EXPECT_LE(std::abs(error.bias), roughness > 0.0 ? 0.03 : 2e-3);
         EXPECT_LE(error.relMse, roughness > 0.0 ? 0.025 : 1e-4);
     }
 }
 
-/// A metal floor that is seen flat, by parallel rays of this cosine to its normal, under a light that stands behind
-/// what is seen of it and leans towards it, 1 m above it.
+/// A metal floor viewed at a grazing angle, by parallel rays at this cosine to its normal. The light stands behind the
+/// visible part, 1 m above it, and leans towards it.
 class AreaLightFloors : public EnvironmentTest {
 protected:
     static scenes::Scene floorUnder(LightType type, double roughness, double cosView) {
@@ -66,7 +66,7 @@ protected:
 };
 
 struct FloorFigures {
-    double bias, relMse; ///< of transformed cosines
+    double bias, relMse; ///< of linearly transformed cosines
     double sampledRelMse;
 };
 constexpr std::array kFloorLights{LightType::Rectangle, LightType::Sphere, LightType::Tube};
@@ -106,7 +106,7 @@ TEST_SWEEP(AreaLightFloors, thatAreSeenFlatAreAsNearTheIntegralAsTheDocumentSays
         }
 }
 
-/// What transformed cosines lack is measured without the reference too, by samples on the same machine.
+/// Measures the error of linearly transformed cosines without the reference, by the engine's sampled area lights.
 TEST_F(AreaLightFloors, samplesMeasureTheErrorOfTransformedCosines) {
     const scenes::Scene scene = floorUnder(LightType::Sphere, 0.5, 0.1);
     const std::vector<float> closed = shown(scene, {});
@@ -118,8 +118,8 @@ TEST_F(AreaLightFloors, samplesMeasureTheErrorOfTransformedCosines) {
     EXPECT_NEAR(bySamples.relMse / byIntegral.relMse, 1.0, 0.05);
 }
 
-/// The coat above black, so that it is all there is; the same lobe of a dielectric and of a metal; a dielectric with
-/// its colour; and a sheen, which is as broad as a diffuse reflection here.
+/// A coat above black, so that nothing else reflects; the same lobe of a dielectric and of a metal; a coloured
+/// dielectric; and a sheen, which is as broad as a diffuse reflection here.
 TEST_F(AreaLightBalls, onABallOfLayersIsNearTheIntegralOverTheLight) {
     scenes::Material coat = coatedSheet();
     coat.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
@@ -133,12 +133,12 @@ TEST_F(AreaLightBalls, onABallOfLayersIsNearTheIntegralOverTheLight) {
     metal.baseColor = dielectric.baseColor = glm::vec4(1.0f);
     struct Case {
         scenes::Material material;
-        double bias, relMse; ///< allowed
+        double bias, relMse; ///< limits
     };
-    // Of a dielectric and a coat the bias is that of Fresnel's factor, which is taken as its mean over the lobe and
-    // grows towards the rim: measured 0.10 of both, and 0.011 of a metal, whose lobe has the same shape and no such
-    // factor. A sheen of roughness 0.5 that is as broad as a diffuse reflection has a bias of -0.06 and a relMSE of
-    // 0.014 under a point light: measured -0.09 and 1e-2. One left out is off by a third and more.
+    // The bias of a dielectric and a coat is that of the Fresnel factor, which is averaged over the lobe and grows
+    // towards the rim: measured 0.10 for both, and 0.011 for a metal, whose lobe has the same shape and no such factor.
+    // A sheen of roughness 0.5 as broad as a diffuse reflection has a bias of -0.06 and a relMSE of 0.014 under a point
+    // light: measured -0.09 and 1e-2. Leaving out a layer is off by a third and more.
     for (const Case& one : {Case{coat, 0.12, 0.01},
                             {lobe, 0.12, 0.01},
                             {metal, 0.03, 0.025},
@@ -158,7 +158,7 @@ TEST_F(AreaLightBalls, onABrushedBallIsNearTheIntegralOverTheLight) {
         brushed.anisotropyRotationRadians = float(turnRadians);
         const BallError error = onBall(brushed, LightType::Rectangle);
         fmt::print("turned by {:.2f}: bias {:+.1e} relMSE {:.1e}\n", turnRadians, error.bias, error.relMse);
-        // A round lobe of the same strength has 0.5 to 0.7.
+        // An isotropic lobe of the same strength is off by 0.5 to 0.7.
         EXPECT_LE(std::abs(error.bias), 0.4);
         EXPECT_LE(error.relMse, 0.25);
     }

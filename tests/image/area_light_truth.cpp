@@ -1,4 +1,4 @@
-// Area lights: known answers, and the integral over a light.
+// Area lights against known answers and the integral over a light.
 #include <numbers>
 
 #include <glm/ext/matrix_transform.hpp>
@@ -16,8 +16,8 @@ using namespace test;
 
 class AreaLightTruth : public MiddleOfQuadTest {};
 
-/// Irradiance does not hang on the viewer. Nearly along a normal that is no axis his projection has hardly any digits,
-/// and what rounding leaves of the normal in it would shear the frame in which the light is summed up.
+/// Irradiance does not depend on the viewer. Nearly along a normal that is no axis, the viewer's projection has hardly
+/// any digits: the normal's rounding residue in it would shear the frame of integration.
 TEST_F(AreaLightTruth, aMatteSurfaceIsLitAlikeFromStraightAboveAndAside) {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), 0.7, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)));
     const auto turned = [&](const glm::dvec3& direction) { return glm::dmat3(turn) * direction; };
@@ -43,7 +43,7 @@ TEST_F(AreaLightTruth, aMatteSurfaceIsLitAlikeFromStraightAboveAndAside) {
 
 // Factors from a point to areas: Howell, "A Catalog of Radiation Heat Transfer Configuration Factors".
 TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
-    constexpr double kRelative = 1e-4; // of round outlines; straight ones are within 2e-6
+    constexpr double kRelative = 1e-4; // for round outlines; straight ones are within 2e-6
     // A parallel rectangle a x b above one of its corners (B-4), four times.
     for (const double height : {0.05, 0.5, 2.0, 50.0}) {
         scenes::Light light = areaLight(LightType::Rectangle, {0.0, 0.0, height}, {0.0, 0.0, -1.0}, 1.0f);
@@ -55,8 +55,8 @@ TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
                               (2.0 * pi);
         EXPECT_NEAR(seen(matte(), {light}) / (4.0 * pi * corner), 1.0, kRelative) << "rectangle at " << height;
     }
-    // A perpendicular one that stands on the surface's plane, seen from before the middle of its edge (B-3, twice):
-    // half of it is below the horizon where it is let down by half its height.
+    // A perpendicular rectangle that stands on the surface's plane, viewed from in front of the middle of its edge
+    // (B-3, twice). Lowered by half its height, half of it is below the horizon.
     for (const double distance : {0.1, 0.5, 3.0})
         for (const double down : {0.0, 1.0}) {
             scenes::Light light = areaLight(LightType::Rectangle, {0.0, distance, 1.0 - down}, {0.0, -1.0, 0.0}, 1.0f);
@@ -74,7 +74,7 @@ TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
         const double factor = 0.09 / (0.09 + height * height);
         EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative) << "disk at " << height;
     }
-    // A sphere that is all above the horizon: (r/d)^2 cos (B-37).
+    // A sphere entirely above the horizon: (r/d)^2 cos (B-37).
     for (const double angle : {0.0, 0.5, 1.0})
         for (const double distance : {0.7, 5.0, 400.0}) {
             const scenes::Light light =
@@ -84,18 +84,18 @@ TEST_F(AreaLightTruth, matteSurfacesAreLitAsTheClosedFormsSay) {
             EXPECT_NEAR(seen(matte(), {light}) / (pi * factor), 1.0, kRelative)
                 << "sphere at " << distance << ", " << angle;
         }
-    // An endless tube above the surface: r/h, as a strip of its width.
+    // An endless tube above the surface: r/h, as for a strip of its width.
     scenes::Light tube = areaLight(LightType::Tube, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, 1.0f);
     tube.lengthMetres = 2e4f;
     EXPECT_NEAR(seen(matte(), {tube}) / (pi * 0.3), 1.0, 2e-3) << "tube";
 }
 
-/// Half of the sum, over the edges, of the angle under which one is seen times the height of the unit normal of its
-/// plane (Lambert 1760).
+/// Half the sum over the edges of the angle that an edge subtends times the height of the unit normal of its plane
+/// (Lambert 1760).
 TEST_F(AreaLightTruth, aPolygonLightsAMatteSurfaceAsLambertSays) {
     const scenes::LightCorners outlines[] = {
         cornersOf({{-0.4f, -0.3f}, {0.7f, 0.0f}, {0.1f, 0.6f}}),
-        cornersOf({{0, 0}, {1, -0.5f}, {0.5f, 0}, {1, 0.5f}, {0, 0.3f}}), // points inwards
+        cornersOf({{0, 0}, {1, -0.5f}, {0.5f, 0}, {1, 0.5f}, {0, 0.3f}}), // concave
         cornersOf({{0, 0.5f},
                    {0.4f, 0.4f},
                    {0.6f, 0},
@@ -117,9 +117,9 @@ TEST_F(AreaLightTruth, aPolygonLightsAMatteSurfaceAsLambertSays) {
             };
             for (std::size_t i = 0; i < corners.count; ++i) {
                 const glm::dvec3 normal = glm::cross(cornerWS(i), cornerWS(i + 1));
-                sum += std::asin(glm::length(normal)) * glm::normalize(normal).z; // of less than a right angle
+                sum += std::asin(glm::length(normal)) * glm::normalize(normal).z; // below a right angle
             }
-            EXPECT_NEAR(seen(matte(), {light}) / (0.5 * std::abs(sum)), 1.0, 1e-4) // of small ones edges cancel
+            EXPECT_NEAR(seen(matte(), {light}) / (0.5 * std::abs(sum)), 1.0, 1e-4) // edges of small ones cancel
                 << corners.count << " corners at " << at.z;
         }
 }
@@ -164,7 +164,7 @@ TEST_F(AreaLightTruth, aLightThatSetsWithNothingInItsWayLosesNothingToShadows) {
         }
 }
 
-/// Of 4 m, around the origin.
+/// The six walls of a 4 m box around the origin.
 std::vector<scenes::Light> wallsOfBox() {
     std::vector<scenes::Light> walls;
     for (const glm::dvec3 axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
@@ -176,11 +176,11 @@ std::vector<scenes::Light> wallsOfBox() {
     return walls;
 }
 
-/// Six walls of a box: each lobe sees the same light all over the hemisphere, and so what it reflects of even light.
+/// A white furnace: six walls give uniform radiance, so each lobe reflects its directional albedo.
 TEST_F(AreaLightTruth, aBoxOfRectanglesIsAWhiteFurnace) {
     const std::vector<scenes::Light> walls = wallsOfBox();
     EXPECT_NEAR(seen(matte(), walls), pi, 2e-5);
-    // E(mu, alpha) of a height-correlated GGX lobe with F = 1, shading.md section 6: good to 2e-4.
+    // E(mu, alpha) of a height-correlated GGX lobe with F = 1, shading.md section 6, accurate to 2e-4.
     constexpr double kCosines[] = {0.1, 0.5, 1.0}, kAlphas[] = {0.05, 0.25, 1.0};
     constexpr double kReflected[3][3] = {{.9113, .9927, .9973}, {.8916, .8572, .9158}, {.7602, .4507, .3069}};
     for (int a = 0; a < 3; ++a)
@@ -191,21 +191,21 @@ TEST_F(AreaLightTruth, aBoxOfRectanglesIsAWhiteFurnace) {
         }
 }
 
-/// Coats and sheens share what they reflect with environments, whose light on them is held to the reference
-/// (EnvironmentTruth): in the box they see that same light.
+/// In the box, coats and sheens receive uniform light. Their reflection of a uniform environment is tested against the
+/// reference (EnvironmentTruth).
 TEST_F(AreaLightTruth, aBoxOfRectanglesLightsCoatsAndSheensAsAnEvenEnvironmentDoes) {
     const std::vector<scenes::Light> walls = wallsOfBox();
     for (const scenes::Material& material : {coatedSheet(), velvet()})
         for (const double cosView : {0.1, 0.5, 1.0}) {
             const double even = seen(material, {}, atCosine(cosView), evenEnvironment(1.0));
             EXPECT_GT(even, 0.1) << material.name;
-            // Six shares of a lobe in single precision, and edges that cancel where walls meet.
+            // Six lobe integrals in single precision, and edges that cancel where walls meet.
             EXPECT_NEAR(seen(material, walls, atCosine(cosView)), even, 1e-3)
                 << material.name << ", cosine " << cosView;
         }
 }
 
-/// So do lobes of two alphas, whose shape is stretched: it fills the hemisphere above the surface all the same.
+/// The same for anisotropic lobes: their stretched shape still fills the hemisphere above the surface.
 TEST_F(AreaLightTruth, aBoxOfRectanglesLightsBrushedMetalAsAnEvenEnvironmentDoes) {
     scenes::Material brushed = twoSidedMetal(1.0, 0.5);
     brushed.anisotropyStrength = 0.8f;
@@ -216,8 +216,8 @@ TEST_F(AreaLightTruth, aBoxOfRectanglesLightsBrushedMetalAsAnEvenEnvironmentDoes
     }
 }
 
-/// Spheres of radius 0.3 m against the closed form of the roughest lobe. Its shape is a transformed cosine, which may
-/// err by half of the distance that docs/area-lights.md tells; a cosine alone errs by three to six times as much.
+/// Spheres of radius 0.3 m against the closed form of the roughest lobe. Its shape is a linearly transformed cosine,
+/// which may err by half of the distance in docs/area-lights.md; a plain cosine errs three to six times as much.
 TEST_F(AreaLightTruth, aSphereFillsOfTheRoughestLobeWhatItsClosedFormSays) {
     const scenes::Material metal = twoSidedMetal(1.0, 1.0);
     for (const auto& [degrees, distanceOfShapes] : {std::pair(0.0, 0.030), {60.0, 0.052}, {80.0, 0.100}}) {
@@ -232,7 +232,7 @@ TEST_F(AreaLightTruth, aSphereFillsOfTheRoughestLobeWhatItsClosedFormSays) {
                     areaLight(LightType::Sphere, 0.3 / std::sin(halfAngle) * towards, {0.0, 0.0, -1.0}, 1.0f);
                 const double truth = roughestShareOfCap(cosView, axis, halfAngle);
                 const double shown = seen(metal, {sphere}, {std::sin(angle), 0.0, cosView});
-                // The albedo's table is good to 1e-3.
+                // The albedo table is accurate to 1e-3.
                 EXPECT_NEAR(shown, truth, 0.5 * distanceOfShapes * albedo + 1e-3 * truth)
                     << degrees << " degrees, " << halfAngle << " around " << axis << ", turned by " << turn;
                 const double cosine = albedo * std::pow(std::sin(halfAngle), 2) * std::cos(axis);
@@ -245,8 +245,8 @@ TEST_F(AreaLightTruth, aSphereFillsOfTheRoughestLobeWhatItsClosedFormSays) {
     }
 }
 
-/// A point in the plane of a flat light, within its outline, sees it in half of all directions; one beside it nowhere.
-/// That is the limit of points before it, whichever side they are on. The reference has it by hemispheres.
+/// A flat light fills half of the hemisphere of a point in its plane, within its outline, and nothing beside it: the
+/// limit of points on either side of the plane. The reference treats it as filling the hemisphere before the plane.
 TEST_F(AreaLightTruth, aTwoSidedLightThatStandsThroughASurfaceFillsHalfOfWhatItsFootSees) {
     for (const LightType type : kFlatTypes)
         for (const double aside : {0.0, 3.0}) {
@@ -270,8 +270,7 @@ TEST_F(AreaLightTruth, aTwoSidedLightThatStandsThroughASurfaceFillsHalfOfWhatIts
         }
 }
 
-/// By the window of the distance to the middle, (1 - (d / range)^4)^2, as places are.
-/// Of a body that light wraps around, also from behind its surface.
+/// A material with wrap lighting, also lit from behind its surface.
 TEST_F(AreaLightTruth, aSmallLightWrapsAsAPointLightDoes) {
     scenes::Material body = matte();
     body.subsurface.method = scenes::SubsurfaceMethod::Wrap;
@@ -288,6 +287,7 @@ TEST_F(AreaLightTruth, aSmallLightWrapsAsAPointLightDoes) {
     EXPECT_NEAR(ratioAt(-0.3) / ratioAt(0.5), 1.0, 1e-3);
 }
 
+/// A range applies the window (1 - (d / range)^4)^2 of the distance to the centre, as for point lights.
 TEST_F(AreaLightTruth, aRangeDimsALightByTheWindowOfItsDistance) {
     for (const LightType type : kAreaTypes)
         for (const double share : {0.3, 0.7, 0.95, 1.0}) {
@@ -300,7 +300,7 @@ TEST_F(AreaLightTruth, aRangeDimsALightByTheWindowOfItsDistance) {
         }
 }
 
-/// Just above the size at which outlines count as places, on a surface that they graze: (r/d)^2 cos.
+/// Just above the size below which outlines count as points, at grazing angles: (r/d)^2 cos.
 TEST_F(AreaLightTruth, smallOutlinesKeepTheirDigitsAtGrazingAngles) {
     for (const double cosine : {0.1, 0.3, 0.7})
         for (const double share : {2.1e-3, 1e-2}) {
@@ -312,7 +312,7 @@ TEST_F(AreaLightTruth, smallOutlinesKeepTheirDigitsAtGrazingAngles) {
         }
 }
 
-/// What an environment's light gets back between microfacets is not the lights'.
+/// Compensation for multiple scattering between microfacets applies to environment light only.
 TEST_F(AreaLightTruth, lightsAreNotCompensated) {
     scenes::Scene scene = quadScene(twoSidedMetal(1.0, 1.0));
     scene.lights = {areaLight(LightType::Disk, {0.3, 0.2, 1.5}, {0.0, 0.0, -1.0}, 3.0f)};
@@ -324,7 +324,7 @@ TEST_F(AreaLightTruth, lightsAreNotCompensated) {
     EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, plain);
 }
 
-/// A mirror sees a light all or nothing, wherever its outline is.
+/// A mirror shows a light fully or not at all, wherever its outline is.
 TEST_F(AreaLightTruth, aMirrorSeesTheShapeOfALight) {
     const scenes::Material mirror = twoSidedMetal(1.0, 0.0);
     for (const LightType type : kAreaTypes) {
@@ -336,7 +336,7 @@ TEST_F(AreaLightTruth, aMirrorSeesTheShapeOfALight) {
     }
 }
 
-/// Where outlines are so small that they count as places, nothing jumps.
+/// Radiance is continuous where outlines become so small that they count as points.
 TEST_F(AreaLightTruth, lightsGoOverIntoSmallOnesWithoutAStep) {
     for (const double roughness : {0.1, 0.5, 1.0})
         for (const LightType type : kAreaTypes) {

@@ -1,4 +1,4 @@
-// Area lights: every technique, and what is left out without them.
+// Area lights: parity of techniques, and pruning without them.
 
 #include <gmock/gmock.h>
 
@@ -21,12 +21,12 @@ TEST_SWEEP(AreaLights, everyTechniqueGivesTheSamePictureToTheLastBit) {
         scenes::Scene scene;
         int samples;
         scenes::ShadowRequest shadows;
-        std::vector<Technique> techniques; ///< besides forward; none: all
+        std::vector<Technique> techniques; ///< besides forward; empty: all
         frame::AreaLights how = frame::AreaLights::Ltc;
     };
-    // Compiling takes nearly all of the time, and programs of one matte material least of it.
+    // Nearly all of the time is compilation, and programs of one matte material compile fastest.
     scenes::Scene few = withAreaLights(quadScene(twoSided(lambert())));
-    few.nodes.push_back(few.nodes[0]); // before the first: half a metre, a third as large, and turned
+    few.nodes.push_back(few.nodes[0]); // in front of the first: at half a metre, a third as large, and turned
     few.nodes.back().parentFromNode = {glm::dvec4(0.3, 0.0, 0.1, 0.0), glm::dvec4(0.0, 0.3, 0.0, 0.0),
                                        glm::dvec4(-0.1, 0.0, 0.3, 0.0), glm::dvec4(0.2, 0.1, 0.5, 1.0)};
     constexpr frame::AreaLights kSampled = frame::AreaLights::Sampled;
@@ -55,7 +55,7 @@ TEST_SWEEP(AreaLights, everyTechniqueGivesTheSamePictureToTheLastBit) {
     }
 }
 
-/// Of each type with a technique that has light lists, or with the one whose programs other tests share.
+/// Each type with a technique that has light lists, or with Deferred, whose programs other tests share.
 TEST_SWEEP(AreaLights, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
     const Technique technique = isWholeSweep() ? Technique::TiledDeferred : Technique::Deferred;
     scenes::Scene scene = quadScene({});
@@ -63,7 +63,7 @@ TEST_SWEEP(AreaLights, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
         SCOPED_TRACE(scenes::infoOf(type).name);
         scene.lights = {areaLight(type, {0.3, 0.2, 1.5}, {0.0, 0.0, -1.0}, 3.0f)};
         frame::FrameSettings settings = ofSize(96, 54);
-        // Programs with everything and samples take long to compile.
+        // Unpruned programs with area samples take long to compile.
         settings.area = {
             isWholeSweep() && type != LightType::Disk ? frame::AreaLights::Sampled : frame::AreaLights::Ltc, 4};
         engine::Renderer renderer(context(), scene);
@@ -78,7 +78,7 @@ TEST_F(AreaLights, aSceneWithoutThemHasNoTraceOfThem) {
     EXPECT_EQ(planText(plan).find("lobe_"), std::string::npos) << planText(plan);
 }
 
-/// In a quarter of the pixels of 1280x720, where tiles are coarser beside what they show.
+/// A quarter of the pixels of 1280x720, where tiles are coarser relative to the image.
 TEST_F(AreaLightsSlow, aThousandRectanglesTakeATenthOfTheTimeByTheirListsThatTheyTakeOverAll) {
     const scenes::Scene lamps = scenes::loadScene("lamps");
     engine::Renderer renderer(context(), lamps);
@@ -92,7 +92,7 @@ TEST_F(AreaLightsSlow, aThousandRectanglesTakeATenthOfTheTimeByTheirListsThatThe
             double ms = 0.0;
             for (const gpu::PassTiming& timing : renderer.backend().passTimings())
                 ms += timing.gpuMs.value_or(timing.cpuMs);
-            if (i > 0) least = i > 1 ? std::min(least, ms) : ms; // the first compiles
+            if (i > 0) least = i > 1 ? std::min(least, ms) : ms; // the first frame compiles
         }
         return least;
     };

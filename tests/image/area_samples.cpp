@@ -1,4 +1,4 @@
-// Sampled area lights: every technique, closed forms, the integral over a light, and transformed cosines beside them.
+// Sampled area lights against closed forms, the integral over a light, and linearly transformed cosines.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,7 +51,7 @@ protected:
         return settings;
     }
 
-    /// A quad of 2 x 2 m in z = 0. Every pixel sees its middle, from a viewer of this cosine.
+    /// A quad of 2 x 2 m in z = 0; every pixel shows its centre, viewed at this cosine.
     static scenes::Scene pointOf(const scenes::Material& material, double cosView) {
         scenes::Scene scene = quadScene(material);
         scenes::Camera& camera = scene.cameras[0];
@@ -62,7 +62,7 @@ protected:
         return scene;
     }
 
-    /// What that point reflects of one light, by the pixels of a square.
+    /// Radiance that the point reflects from one light, over the pixels of a square image.
     SampledMean seen(scenes::Scene& scene, engine::Renderer& renderer, const scenes::Light& light, int samples = 16,
                      int side = 16) {
         scene.lights = {light};
@@ -107,14 +107,14 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
                             double rounding = 2e-5) {
         SCOPED_TRACE(what);
         SampledMean shown = seen(scene, renderer, light);
-        // Of far lights few samples of the cosine hit the light, each by a part of `factor`, and each of these hits
-        // adds the same. Their number is a Poisson variable; pixels without any do not show its variance.
+        // Few cosine samples hit a far light, each with probability `factor`, and each hit adds the same value. Their
+        // number is a Poisson variable; pixels without a hit do not show its variance.
         constexpr double kSamples = 256.0 * 16.0;
         shown.standardError = std::max(shown.standardError, pi * factor * std::sqrt(factor / kSamples));
         expectWithinThree(shown, pi * factor, rounding);
         EXPECT_LE(shown.standardError, 0.02 * pi * factor);
     };
-    // Parallel, above the middle (B-4, four times).
+    // A parallel rectangle above the middle (B-4, four times).
     for (const double height : {0.05, 0.5, 5.0, 5000.0}) {
         scenes::Light light = areaLight(LightType::Rectangle, {0.0, 0.0, height}, {0.0, 0.0, -1.0}, 1.0f);
         light.widthMetres = 2.0f;
@@ -124,7 +124,7 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
                                y / std::sqrt(1 + y * y) * std::atan(x / std::sqrt(1 + y * y))) /
                               (2.0 * pi);
         expect(light, 4.0 * corner, fmt::format("rectangle at {}", height));
-        // Rows that go with columns find the diagonal of the light alone.
+        // If rows correlate with columns, samples cover only the diagonal of the light.
         if (height == 0.5)
             for (const int samples : {1, 4}) {
                 const SampledMean few = seen(scene, renderer, light, samples, 96);
@@ -132,7 +132,7 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
                 EXPECT_LE(few.standardError, 0.01 * few.mean);
             }
     }
-    // Standing on the surface, or let down by half its height (B-3, twice).
+    // A rectangle standing on the surface, or lowered by half its height (B-3, twice).
     for (const double down : {0.0, 1.0}) {
         scenes::Light light = areaLight(LightType::Rectangle, {0.0, 0.5, 1.0 - down}, {0.0, -1.0, 0.0}, 1.0f);
         light.widthMetres = light.heightMetres = 2.0f;
@@ -149,17 +149,17 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
                0.09 / (distance * distance) * std::cos(1.0), fmt::format("sphere at {}", distance));
     EXPECT_EQ(seen(scene, renderer, areaLight(LightType::Sphere, {0.0, 0.1, 0.2}, {0.0, 0.0, -1.0}, 1.0f)).mean, 0.0)
         << "within a sphere";
-    // An endless tube: r/h, as a strip of its width, to what is missing at its ends.
+    // An endless tube: r/h, as for a strip of its width, up to the part missing at its ends.
     scenes::Light tube = areaLight(LightType::Tube, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}, 1.0f);
     tube.lengthMetres = 2e4f;
     expect(tube, 0.3, "tube", 1e-4);
-    // A short one, for lack of a closed form against the reference: two formulas find heights on it.
+    // A short tube, against the reference for lack of a closed form: two formulas find heights on it.
     tube.positionWS.z = 0.5;
     tube.lengthMetres = 4.0f;
     const SampledMean ofLength = seen(scene, renderer, tube, 64);
     expectWithinThree(ofLength, integralOf(scene), 1e-4);
     EXPECT_LE(ofLength.standardError, 2e-3 * ofLength.mean);
-    // An end above the point, as a disk.
+    // An end cap above the point, as a disk.
     tube = areaLight(LightType::Tube, {0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, 1.0f);
     tube.lengthMetres = 1.0f;
     expect(tube, 0.09 / (0.09 + 0.25), "end of a tube");
@@ -185,7 +185,7 @@ TEST_F(AreaSamples, lightMatteSurfacesAsTheClosedFormsSay) {
     expect(triangle, std::abs(sum) / (2.0 * pi), "triangle");
 }
 
-/// The noise of several lights is not that of one: what they add to a pixel varies apart.
+/// Lights are sampled independently: the noise of several lights is not that of one.
 TEST_F(AreaSamples, ofSeveralLightsAreTakenApart) {
     scenes::Scene scene = pointOf(sampledMatte(), 1.0);
     scenes::Light light = areaLight(LightType::Rectangle, {0.0, 0.0, 0.5}, {0.0, 0.0, -1.0}, 1.0f);
@@ -200,16 +200,16 @@ TEST_F(AreaSamples, ofSeveralLightsAreTakenApart) {
     };
     const SampledMean one = found(1), four = found(4);
     EXPECT_NEAR(four.mean, 4.0 * one.mean, 3.0 * std::hypot(four.standardError, 4.0 * one.standardError));
-    EXPECT_NEAR(four.standardError / one.standardError, 2.0, 0.3); // 4, were they alike
+    EXPECT_NEAR(four.standardError / one.standardError, 2.0, 0.3); // 4 if they were fully correlated
 }
 
-/// Above a floor that is seen flat, behind it as the viewer sees it, so that its highlight shows.
+/// A light over a floor viewed at a grazing angle, on the far side, so that its highlight is visible.
 scenes::Light overFloor(LightType type) {
     scenes::Light light = areaLight(type, {-2.0, 0.1, 0.6}, {1.0, 0.0, -0.3}, 1.0f);
     if (type == LightType::Rectangle) light.isTwoSided = true;
-    if (type == LightType::Tube) light.directionWS = glm::normalize(glm::dvec3(0.7, 1.0, -0.3)); // with an end
+    if (type == LightType::Tube) light.directionWS = glm::normalize(glm::dvec3(0.7, 1.0, -0.3)); // with an end cap
     if (type == LightType::Disk) light.rangeMetres = 4.0f;
-    if (type == LightType::Polygon) light.corners.metres[2] = {0.1f, -0.1f}; // points inwards
+    if (type == LightType::Polygon) light.corners.metres[2] = {0.1f, -0.1f}; // concave
     return light;
 }
 
@@ -264,7 +264,7 @@ std::vector<SampledCase> sampledMaterials() {
     return cases;
 }
 
-/// By pixel of a ball, in parts of its light, so that no highlight decides alone.
+/// Relative errors by pixel of a ball, so that no highlight dominates.
 void AreaSamples::expectTheIntegralOnBalls() {
     std::size_t turn = 0;
     for (const auto& [name, material] : everyNth(sampledMaterials(), 4))
@@ -298,7 +298,7 @@ TEST_F(AreaSamplesSlow, ofEveryModelAgreeWithTheIntegralOnABall) {
     expectTheIntegralOnBalls();
 }
 
-/// What LTC needs is left out with samples, and the reverse; other scenes know of neither.
+/// Sampling omits the resources of LTC, and the reverse; scenes without area lights define neither.
 TEST_F(AreaSamples, andTransformedCosinesLeaveEachOtherOut) {
     const auto defineOf = [](const scenes::Scene& scene, const frame::FrameSettings& settings) {
         std::optional<std::string> samples;
@@ -347,7 +347,7 @@ constexpr SampleFault kSampleFaults[] = {
      "(window /"},
 };
 
-/// Each moves a mean by more than three of its standard errors.
+/// Each fault shifts a mean by more than three of its standard errors.
 void AreaSamples::expectEveryFaultShows() {
     for (const SampleFault& fault : everyNth(std::vector(std::begin(kSampleFaults), std::end(kSampleFaults)), 4)) {
         SCOPED_TRACE(fault.fault);
@@ -369,7 +369,7 @@ TEST_F(AreaSamplesSlow, everyFaultOfADensityShows) {
     expectEveryFaultShows();
 }
 
-/// A flat light that cuts a surface fills half of the hemisphere of the points on the cut; one in the surface gives it
+/// A flat light that cuts a surface fills half of the hemisphere of points on the cut; one in the surface lights
 /// nothing; one just above it fills the hemisphere of the points below. LTC, samples and reference agree.
 void AreaSamples::expectLightOfTouchingOnes() {
     scenes::Scene scene = pointOf(sampledMatte(), 1.0);
@@ -400,8 +400,8 @@ void AreaSamples::expectLightOfTouchingOnes() {
             EXPECT_NEAR(sampled.mean, wanted, 3.0 * sampled.standardError + 2e-3);
             EXPECT_NEAR(integralOf(scene), wanted, 1e-3);
             EXPECT_NEAR(double(renderer.render(Technique::Deferred, closed).radiance[4 * 4]), wanted, 1e-3);
-            if (wanted == 0.5 * pi) continue; // its plane belongs to its back
-            light.isTwoSided = false;         // of those above it one shines away
+            if (wanted == 0.5 * pi) continue; // points in the light's plane are behind it
+            light.isTwoSided = false;         // above the surface, one of the two faces away
             const double ofOneSide = towards.z > 0.0 ? 0.0 : wanted;
             EXPECT_NEAR(seen(scene, renderer, light).mean, ofOneSide, 2e-3);
             EXPECT_NEAR(integralOf(scene), ofOneSide, 1e-3);
@@ -415,7 +415,7 @@ TEST_F(AreaSamplesSlow, lightsThatTouchASurfaceGiveWhatTheyGiveFromCloseBy) {
     expectLightOfTouchingOnes();
 }
 
-/// Whatever lights there are, no sample is worth more than the noise of a hemisphere of their radiance.
+/// For any light, radiance is finite and within the noise of a hemisphere of the light's radiance.
 TEST_F(AreaSamplesSlow, extremeSizesAndPlacesGiveFiniteLight) {
     for (const double roughness : {0.0, 0.3, 1.0}) {
         scenes::Scene scene = pointOf(twoSidedMetal(0.5, roughness), 0.1);
@@ -436,7 +436,7 @@ TEST_F(AreaSamplesSlow, extremeSizesAndPlacesGiveFiniteLight) {
     }
 }
 
-/// A light that is off, or left out beside one that is shown alone, is no reason not to judge.
+/// An area light that is off, or excluded by soloLight, does not prevent judging.
 TEST(AreaLightsJudged, areThoseThatShine) {
     scenes::Scene scene = quadScene(sampledMatte());
     scene.lights = {areaLight(LightType::Disk, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, 1.0f), scenes::Light()};

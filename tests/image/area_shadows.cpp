@@ -1,4 +1,4 @@
-// Shadows of area lights past the straight edge of a plate, against the share of the light's own surface that is left.
+// Shadows of area lights past the straight edge of a plate, against the visible fraction of the light's surface.
 #include <functional>
 #include <numbers>
 
@@ -12,11 +12,11 @@ namespace {
 using scenes::LightType;
 using namespace test;
 
-constexpr double kEdgeX = 0.1; ///< of the plate, half way to the light, which lies at x above it
+constexpr double kEdgeX = 0.1; ///< edge of the plate, halfway up to the light at x = 0
 constexpr glm::ivec2 kFloorPixels{160, 90};
-constexpr double kFloorHalfHeight = 0.5; ///< metres of the picture
+constexpr double kFloorHalfHeight = 0.5; ///< metres of the image
 
-/// A floor, and a light 1 m above it that is 0.8 m long and 0.2 m wide.
+/// A floor, a plate, and a light 1 m above the floor that is 0.8 m long and 0.2 m wide.
 scenes::Scene floorUnder(const scenes::Light& light) {
     return floorUnderAPlate(light, kEdgeX, kFloorHalfHeight);
 }
@@ -38,12 +38,12 @@ struct FloorShare {
     glm::dvec3 pointWS;
 };
 
-/// From where on a plane at the light's height is hidden from a point of the floor: x in metres.
+/// The x in metres beyond which a plane at the light's height is hidden from a point of the floor.
 double hiddenFromX(const glm::dvec3& pointWS) {
     return 2.0 * kEdgeX - pointWS.x;
 }
 
-/// Of a circle's area, the share on one side of a line, by the line's distance from the middle in radii: 1 at 1.
+/// Fraction of a circle's area on one side of a line, by the line's distance from the centre in radii: 1 at 1.
 double shareOfCircle(double radii) {
     const double t = std::clamp(radii, -1.0, 1.0);
     return 1.0 - (std::acos(t) - t * std::sqrt(1.0 - t * t)) / std::numbers::pi;
@@ -68,12 +68,12 @@ protected:
         return shares;
     }
 
-    /// `leftOf`: the share of the area of a flat light below an x.
+    /// `leftOf`: the fraction of a flat light's area below an x.
     void expectShares(const char* name, const scenes::Light& light, const std::function<double(double)>& leftOf) {
         expectSharesAt(name, light, [&](const glm::dvec3& pointWS) { return leftOf(hiddenFromX(pointWS)); });
     }
 
-    /// `truthAt`: the share of the light in sight of a point of the floor.
+    /// `truthAt`: the fraction of the light visible from a point of the floor.
     void expectSharesAt(const char* name, const scenes::Light& light,
                         const std::function<double(const glm::dvec3&)>& truthAt) {
         double before = 1.0;
@@ -122,13 +122,13 @@ TEST_F(AreaShadows, ofADiskAreThoseOfItsCircle) {
 
 TEST_F(AreaShadows, ofAPolygonAreThoseOfItsOutline) {
     scenes::Light light = lampOverTheFloor(LightType::Polygon);
-    // Its second axis points along -y, whichever way round that is.
+    // Its second axis points along -y; its sign does not matter.
     light.corners = cornersOf({{-0.4f, -0.1f}, {0.4f, -0.1f}, {-0.4f, 0.1f}});
     expectShares("triangle", light, [](double x) {
         const double beyond = heldToUnit(0.5 - x / 0.8);
         return 1.0 - beyond * beyond;
     });
-    // A bridge: four fifths of it are its legs, which are half of its length.
+    // A bridge: its legs are four fifths of its area and half of its length.
     light.corners = cornersOf({{-0.4f, -0.1f},
                                {-0.2f, -0.1f},
                                {-0.2f, 0.05f},
@@ -160,8 +160,8 @@ TEST_F(AreaShadows, ofATubeAreWideAlongItAndNarrowAcrossIt) {
     EXPECT_LT(along / across, 10.0);
 }
 
-/// Its shadow is that of disks which face the point, all along its axis. Where the axis runs along the plate's edge,
-/// the plane through a point and that edge cuts all of them alike: as far from their middles as from the light's.
+/// The shadow of a tube is that of disks that face the point, all along its axis. If the axis is parallel to the
+/// plate's edge, the plane through a point and that edge cuts all disks at the same distance from their centres.
 TEST_F(AreaShadows, ofATubeAlongAnEdgeAreThoseOfDisksThatFaceThePoint) {
     constexpr double kRadiusMetres = 0.05;
     scenes::Light light = lampOverTheFloor(LightType::Tube);
@@ -170,7 +170,7 @@ TEST_F(AreaShadows, ofATubeAlongAnEdgeAreThoseOfDisksThatFaceThePoint) {
     light.directionWS = {0.0, 1.0, 0.0};
     expectSharesAt("tube", light, [&](const glm::dvec3& pointWS) {
         const glm::dvec3 toMiddle = light.positionWS - pointWS, edgeWS(kEdgeX, 0.0, 0.5);
-        // At right angles to the edge and to what looks past it, to the side in sight, which is that of -x.
+        // Perpendicular to the edge and to the ray past it, towards the visible side, which is -x.
         const glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), pointWS - edgeWS));
         const double metres = glm::dot(normal, toMiddle);
         const double sine = std::sqrt(1.0 - metres * metres / glm::dot(toMiddle, toMiddle));
@@ -178,8 +178,8 @@ TEST_F(AreaShadows, ofATubeAlongAnEdgeAreThoseOfDisksThatFaceThePoint) {
     });
 }
 
-/// Of every type of light with two techniques and without pruning, or with one of these two in turn and every other
-/// one without pruning.
+/// Every type of light with both techniques and without pruning; in a short sweep with one of them in turn, and every
+/// second type without pruning.
 TEST_SWEEP(AreaShadows, areTheSameToTheLastBitWithEveryTechniqueAndWithWhatTheSceneDoesNotNeed) {
     const std::vector<engine::Technique> both{engine::Technique::TiledDeferred, engine::Technique::ClusteredForward};
     std::size_t turn = 0;
@@ -198,15 +198,15 @@ TEST_SWEEP(AreaShadows, areTheSameToTheLastBitWithEveryTechniqueAndWithWhatTheSc
     }
 }
 
-// Sampled light and sampled shadows of an area light are multiplied: the mean of the product is the product of the
-// means only where both take random numbers of their own.
+// Sampled light and sampled shadows of an area light are multiplied. The mean of the product is the product of the
+// means only if both use independent random numbers.
 
 constexpr int kShadowPixels = 64;
-constexpr int kFewSamples = 4; ///< of each kind, so that both have much noise
+constexpr int kFewSamples = 4; ///< of each kind, so that both are noisy
 
 class AreaSampleShadows : public ShadowTest {
 protected:
-    /// Every pixel sees the same place of a floor, from below a plate that hides half of a light.
+    /// Every pixel shows the same point of a floor, from below a plate that hides half of a light.
     static scenes::Scene placeUnderAPlate() {
         scenes::Light light = areaLight(scenes::LightType::Rectangle, {0.0, 0.0, 1.0}, {0.5, 0.3, -1.0}, 1.0f);
         light.widthMetres = light.heightMetres = 1.6f;

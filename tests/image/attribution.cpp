@@ -1,4 +1,4 @@
-// Where a picture's error comes from: each cause alone, in scenes that switch causes on one by one.
+// Attribution of an image's error: each cause alone, in scenes that add causes one by one.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace {
 using engine::Technique;
 using validation::AttributionLine;
 
-/// What each of these causes needs in sceneOf().
+/// The features of sceneOf() that causes need.
 struct Switches {
     bool size = false, area = false, environment = false, glass = false, skin = false;
 };
@@ -36,12 +36,12 @@ struct Switch {
 
 class Attribution : public test::GlTest {
 protected:
-    /// Holds a scene to that with each of the causes and those before it.
+    /// Checks the attribution of a scene with each of the causes added to those before it.
     void expectSwitched(std::span<const Switch> switches);
 
     static constexpr double kMostArithmetic = 1e-8;
 
-    /// Lines of one point of `technique` per environment method, judged by the reference.
+    /// Attribution lines of one bench point of `technique` per environment method, judged by the reference.
     std::vector<AttributionLine> linesOf(const scenes::Scene& scene, frame::FrameSettings settings,
                                          Technique technique = Technique::Forward,
                                          std::vector<frame::EnvironmentLight> methods = {},
@@ -69,7 +69,7 @@ protected:
         return validation::attributeErrors(context(), truth, "reference", points);
     }
 
-    /// Holds the lines to what they promise: the causes sum to the whole, fp32 is fine, and no two are one.
+    /// Checks that the causes sum to the whole, fp32 errors are small and no figure repeats; returns the causes.
     static std::set<std::string> expectSound(const std::vector<AttributionLine>& lines) {
         std::set<std::string> causes;
         std::set<double> figures;
@@ -81,7 +81,7 @@ protected:
                 whole = line.relMse.value();
             } else if (line.cause == validation::kCrossCause) {
                 sum += line.relMse.value();
-            } else if (line.what.find(": ") == std::string::npos) { // else a channel's share
+            } else if (line.what.find(": ") == std::string::npos) { // else one channel
                 causes.insert(line.cause);
                 sum += line.cause == validation::kFilterCause ? 0.0 : line.relMse.value();
                 if (line.cause == "arithmetic") {
@@ -98,7 +98,7 @@ protected:
 
 class AttributionSlow : public Attribution {};
 
-/// A ball over a floor below a lamp; each flag brings what one cause needs.
+/// A ball over a floor below a lamp; each flag adds the feature that one cause needs.
 scenes::Scene sceneOf(const Switches& on) {
     scenes::Material floor;
     floor.metallic = 0.5f;
@@ -162,7 +162,7 @@ TEST_F(Attribution, fp32ArithmeticIsNotTheErrorOfTheEnvironment) {
 TEST_F(Attribution, subsurfaceScatteringIsMeasuredBesideALightThatScattersNowhere) {
     expectSwitched(std::array{Switch{"subsurface", &Switches::skin}});
 }
-/// Glass shows the environment by the point's method, so each method has its row of glass; their sums are the wholes.
+/// Glass uses the environment method of its point, so each method has its own glass line; its lines sum to its whole.
 TEST_F(Attribution, glassIsMeasuredWithTheEnvironmentOfItsPoint) {
     Switches on;
     on.glass = on.environment = true;
@@ -187,7 +187,7 @@ TEST_F(Attribution, glassIsMeasuredWithTheEnvironmentOfItsPoint) {
     ASSERT_EQ(wholes.size(), methods.size());
     for (const auto& [name, whole] : wholes) EXPECT_NEAR(sums[name] + arithmetic, whole, 0.1 * whole) << name;
 }
-/// What a point chooses otherwise than the truth: where lights end, how shadows are found, how the G-buffer is stored.
+/// Choices of a point that differ from the truth: light ranges, shadow filter, G-buffer layout.
 TEST_F(Attribution, choicesOfAPointSumToTheWhole) {
     scenes::Scene scene = sceneOf({});
     scene.lights[0].falloff = scenes::Falloff::Attenuation;
@@ -226,7 +226,7 @@ TEST_F(AttributionSlow, theCausesOfScenesAndModelsSumToTheWhole) {
         fmt::print("{}\n", name);
         expectSound(linesOf(scenes::loadScene(name, {}), settings));
     }
-    // Of our own, and two that a stranger lacks.
+    // A built-in scene, and two models that may be absent.
     fmt::print("spheres before the studio\n");
     scenes::LoadOptions inStudio;
     inStudio.environment = "studio";

@@ -12,7 +12,7 @@ using namespace test;
 class Bands : public ImageTest {
 protected:
     static frame::FrameSettings small() {
-        return ofSize(200, 211); // four bands, the last of them cut
+        return ofSize(200, 211); // four bands, the last one cropped
     }
 };
 
@@ -37,7 +37,7 @@ TEST_SWEEP(Bands, aPictureDrawnInBandsIsExactlyTheSameWithEveryTechnique) {
 TEST_F(Bands, aPictureDrawnInTheSmallestPiecesIsExactlyTheSame) {
     const scenes::Scene scene = everythingScene();
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings settings = ofSize(75, 51); // pieces of 16 pixels, the last of them cut
+    frame::FrameSettings settings = ofSize(75, 51); // pieces of 16 pixels, the last one cropped
     for (const engine::Technique technique : {engine::Technique::Forward, engine::Technique::TiledDeferred}) {
         SCOPED_TRACE(infoOf(technique).name);
         const engine::RenderedFrame whole = renderer.render(technique, settings);
@@ -70,7 +70,7 @@ TEST_F(Bands, aFrameCanBeAbandonedAtEveryBand) {
             EXPECT_EQ(asked, last + 1);
         }
     }
-    // Nothing of the frames that were given up is left behind.
+    // Abandoned frames leave nothing behind.
     EXPECT_EQ(renderer.render(engine::Technique::TiledDeferred, small()).radiance, before.radiance);
 }
 
@@ -110,7 +110,7 @@ TEST_F(Bands, manyTrianglesAreDrawnInPartsThatLeaveOutNone) {
     const scenes::Scene scene = scenes::loadScene("lattice"); // the parts end within its spheres
     engine::Renderer renderer(context(), scene);
     const engine::RenderedFrame whole = renderer.render(engine::Technique::Deferred, small());
-    std::vector<int> asked(renderer.backend().passTimings().size() + 1); // by the pass in progress, within it
+    std::vector<int> asked(renderer.backend().passTimings().size() + 1); // calls within each pass
     const gpu::BandedDrawing banded([&asked] {
         const gpu::BandProgress progress = gpu::bandProgress();
         if (progress.share > 0.0) ++asked.at(progress.passes);
@@ -121,7 +121,7 @@ TEST_F(Bands, manyTrianglesAreDrawnInPartsThatLeaveOutNone) {
     const std::vector<gpu::PassTiming> passes = renderer.backend().passTimings();
     const auto gbuffer = std::ranges::find(passes, "gbuffer", &gpu::PassTiming::name);
     ASSERT_NE(gbuffer, passes.end());
-    // Bands alone would be four: after the first part there are more, each of twice the triangles at most.
+    // Bands alone would be four: after the first part there are more, each of at most twice the triangles.
     EXPECT_GE(asked[std::size_t(gbuffer - passes.begin())], 5);
 }
 

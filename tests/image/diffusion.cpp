@@ -1,4 +1,4 @@
-// Spread light in frames: techniques, what is left out, shadows, what it costs.
+// Diffused irradiance in frames: techniques, pruning, shadows, cost.
 #include <numeric>
 #include <tuple>
 
@@ -58,7 +58,7 @@ TEST_F(DiffusionSlow, whatSpreadingCosts) {
     engine::Renderer renderer(context(), scene);
     renderer.backend().setProfiling(true);
     frame::FrameSettings settings;
-    // The second frame lights all that it sees anew, the third what a camera nearer by sees besides, the last nothing.
+    // Frame 1 relights everything visible, frame 2 only what a nearer camera reveals, frame 3 nothing.
     double lit = 0.0;
     for (int frame = 0; frame < 4; ++frame) {
         if (frame == 1) scene.lights[0].intensity *= 1.1f;
@@ -98,17 +98,17 @@ TEST_F(Diffusion, mapsHideLightFromTexelsAsRaysDo) {
     }
 }
 
-// A ball hides none of its texels whose normal faces the light, though its triangles do.
+// A round ball does not shadow its texels whose normal faces the light, though its triangles do.
 TEST_F(Diffusion, texelsOfACoarseBallAreShadowedAsTheRoundBallThatItApproximates) {
     scenes::Scene ball = sphereScene(0.03, 8);
-    ball.materials[0].subsurface.absorptionPerMillimetre = glm::vec3(1e3f); // nothing passes through
+    ball.materials[0].subsurface.absorptionPerMillimetre = glm::vec3(1e3f); // no transmission
     ball.lights[0].directionWS = glm::normalize(glm::dvec3(-1.0, -0.5, 0.4));
     scenes::Mesh& mesh = ball.meshes[0];
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         const auto corner = [&](std::size_t c) { return mesh.positionsOS[mesh.indices[i + c]]; };
         const glm::vec3 normal = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
         if (glm::dot(normal, corner(0)) < 0.0f)
-            std::swap(mesh.indices[i + 1], mesh.indices[i + 2]); // half of the charts
+            std::swap(mesh.indices[i + 1], mesh.indices[i + 2]); // half of the charts are wound the other way
     }
     frame::FrameSettings settings = withDiffusion(ofSize(96, 54), 256);
     engine::Renderer renderer(context(), ball);
@@ -131,7 +131,7 @@ TEST_F(Diffusion, texelsOfACoarseBallAreShadowedAsTheRoundBallThatItApproximates
     EXPECT_LT(lost[1], 0.5 * lost[0]); // measured 0.31: points beside vertices are lifted by less than rounding
 }
 
-// The lit object itself has no holes.
+// Cut-outs of casters; the lit object itself has none.
 TEST_F(Diffusion, holesOfCastersLetLightThrough) {
     for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
         scenes::Scene ball = sphereScene(0.03, 12);
@@ -150,7 +150,7 @@ TEST_F(Diffusion, holesOfCastersLetLightThrough) {
         settings.shadowFilter = filter;
         engine::Renderer renderer(context(), ball);
         const std::vector<float> hidden = renderer.render(Technique::Deferred, settings).radiance;
-        // All of it is a hole now, which is the first one of the scene.
+        // The whole plate is a cut-out now, the first one of the scene.
         ball.materials[1].alphaMode = scenes::AlphaMode::Mask;
         ball.materials[1].alphaCutoff = 0.5f;
         renderer.materialsChanged();

@@ -1,4 +1,4 @@
-// Light that spreads over a ball of several charts, against a closed form and the reference.
+// Diffusion over a ball of several charts, against a closed form and the reference.
 #include <array>
 #include <cstdint>
 #include <map>
@@ -17,7 +17,7 @@ TEST_F(DiffusionTruth, lightThatIsTheSameEverywhereStaysSoOverSeams) {
     scenes::Mesh& mesh = scene.meshes[0];
     for (glm::vec3& normal : mesh.normalsOS) normal = glm::vec3(0.0f, 1.0f, 0.0f);
     scene.lights[0].directionWS = {0.0, -1.0, 0.0};
-    constexpr float kRadiance = 0.5f; // not 1, which a lost weight would leave as well
+    constexpr float kRadiance = 0.5f; // not 1, which a lost weight would give too
     scene.lights[0].intensity = kRadiance;
     scene.background = glm::vec3(0.0f);
     frame::FrameSettings settings = withoutShadows(ofSize(400, 400));
@@ -39,13 +39,13 @@ TEST_F(DiffusionTruth, lightThatIsTheSameEverywhereStaysSoOverSeams) {
     }
 }
 
-/// The light of a sun of 1 that leaves a ball of skin whose scene is in its own metres, at a cosine to the sun: the
-/// clamped cosine as a series of Legendre polynomials (Ramamoorthi and Hanrahan 2001, equation 19), each damped as heat
-/// on a sphere is. 640 of them hold the widths of skin on 30 mm to 1e-5.
+/// Outgoing radiance of a ball of skin at true scale, lit by a sun of intensity 1, at a cosine to the sun: the clamped
+/// cosine as a series of Legendre polynomials (Ramamoorthi and Hanrahan 2001, equation 19), each damped as heat on a
+/// sphere is. 640 of them resolve the widths of skin on 30 mm to 1e-5.
 class SpreadOverBall {
 public:
     explicit SpreadOverBall(double radiusMetres) : radiusMetres_(radiusMetres) {
-        // Of odd ones but the first there is nothing.
+        // Odd terms vanish except the first.
         std::array<double, kPolynomials> share{0.25, 0.5};
         double middle = 1.0; // l! / (2^l (l/2)!^2)
         for (std::size_t l = 2; l < kPolynomials; l += 2) {
@@ -124,17 +124,17 @@ TEST_F(DiffusionTruth, seamsAreNoWorseThanWhatLiesBetweenThem) {
     const double reference = std::sqrt(ofTruth / (count[0] + count[1]));
     fmt::print("off by {:.2e} inside, {:.2e} at seams; the reference by {:.2e}\n", inside, seams, reference);
     EXPECT_GT(count[1], 100.0);
-    // Without spreading 0.044 and 0.0045, with widths a tenth too large or small 0.0019 inside; with half or twice of
-    // them 0.003 and 0.011 at seams. Measured 8.3e-4 and 1.2e-3.
+    // Without diffusion 0.044 and 0.0045, with widths off by a tenth 0.0019 inside; with half or twice the widths 0.003
+    // and 0.011 at seams. Measured 8.3e-4 and 1.2e-3.
     EXPECT_LE(inside, 1.3e-3);
     EXPECT_LE(seams, 1.8e-3);
-    // Measured 1.1e-3: its noise and the facets of the ball. Widths a tenth off would be 1.9e-3.
+    // Measured 1.1e-3: its noise and the ball's triangles. Widths off by a tenth would give 1.9e-3.
     EXPECT_LE(reference, 1.4e-3) << "the reference against the closed form";
 }
 
-// Spread skin of a head against the reference.
+// Diffused skin of a head against the reference.
 
-/// Relative mean square error of a picture where both it and its neighbours show the reference's first object.
+/// Errors of an image over pixels that show one object of the reference, as their neighbours do.
 struct HeadError {
     double relMse = 0.0, p99 = 0.0, bias = 0.0;
     std::size_t pixels = 0;
@@ -175,7 +175,7 @@ HeadError headError(const Picture& picture, const reference::Rendered& truth, st
 
 TEST_F(DiffusionTruthSlow, spreadSkinIsNearerTheReferenceThanTheOtherMethods) {
     scenes::LoadOptions options;
-    options.useAssets = false; // the bars are those of the bust
+    options.useAssets = false; // the limits are those of the bust
     const scenes::Scene scene = scenes::loadScene("head_skin", options);
     frame::FrameSettings settings = exactOfSize(320, 180);
     reference::Settings wanted = validation::referenceSettings(scene, settings);
@@ -215,7 +215,7 @@ TEST_F(DiffusionTruthSlow, spreadSkinIsNearerTheReferenceThanTheOtherMethods) {
                    error.p99, error.bias, error.pixels, ms);
     }
     const double own = relMse.at("texture_space_diffusion");
-    // Measured 2.4e-5 and 3.2e-4, and 13 and 41 times as much with depth_map and none.
+    // Measured 2.4e-5 and 3.2e-4; depth_map and none have 13 and 41 times as much.
     EXPECT_LE(doubling.relMse, 4e-5);
     EXPECT_LE(own, 4e-4);
     EXPECT_GE(relMse.at("depth_map"), 10.0 * own);

@@ -1,4 +1,4 @@
-// Faults of the passes that spread light, which closed forms see.
+// Faults of the diffusion passes that closed forms detect.
 
 #include "tests/image/DiffusionTest.h"
 #include "tests/support/ShaderMutant.h"
@@ -9,7 +9,7 @@ namespace {
 using engine::Technique;
 using namespace test;
 
-/// What is measured with the shaders under test, and the most that it may be.
+/// A figure measured with the shaders under test, and its limit.
 struct Measured {
     double found, most;
 };
@@ -33,8 +33,8 @@ public:
     Measured slantedStep(const shader::SourceTree& shaders) {
         return {stepErrorOf(5.0, 9.0, shaders, {{0.6, 0.0}, {0.3, 0.6}}), 3e-3};
     }
-    /// From row to row the texture goes on by two and a half columns: what interpolation shows of light along u is as
-    /// wide as a quarter of the narrower Gaussian, and not a tenth.
+    /// The texture shifts by two and a half columns per row: interpolation blurs light along u by a quarter of the
+    /// width of the narrower Gaussian, instead of a tenth.
     Measured steeplySlantedStep(const shader::SourceTree& shaders) {
         return {stepErrorOf(12.0, 20.0, shaders, {{0.4, 0.0}, {0.5, 0.2}}), 3e-3};
     }
@@ -46,7 +46,7 @@ public:
         const auto stretch = [](scenes::Scene& scene) { mapTexture(scene, {{0.0, 0.5}, {1.0, 0.0}}); };
         return {stepError(512, stretch, shaders).l2, 7e-3};
     }
-    /// Even light on a sphere of six charts: how far pixels are off, where the surface keeps half of the light.
+    /// Uniform light on a sphere of six charts of albedo one half: the largest error of a pixel.
     Measured evenLight(const shader::SourceTree& shaders) {
         scenes::Scene scene = sphereScene(0.03, 16);
         for (glm::vec3& normal : scene.meshes[0].normalsOS) normal = glm::vec3(0.0f, 1.0f, 0.0f);
@@ -59,10 +59,10 @@ public:
             if (frame.radiance[i + 3] != 0.0f) worst = std::max(worst, std::abs(double(frame.radiance[i]) - 0.5));
         return {worst, 1e-3};
     }
-    /// The night of a sphere far larger than light spreads.
+    /// The unlit side of a sphere far larger than the diffusion widths.
     Measured night(const shader::SourceTree& shaders) {
         scenes::Scene scene = sphereScene(0.1, 16);
-        scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.9, 0.7, 1.0)); // as the camera looks from
+        scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.9, 0.7, 1.0)); // towards the camera
         const engine::RenderedFrame frame = drawn(scene, shaders);
         const std::size_t middle = 4 * (100 * 200 + 100);
         return {double(frame.radiance[middle]), 1e-6};
@@ -112,7 +112,7 @@ TEST_SWEEP(DiffusionFaults, everyFaultIsSeenByAClosedForm) {
         {"light that texels hold already spread counted as none", "passes/diffusion_light.frag",
          "constants.inTexels.rgb * light", "0.0 * light", &DiffusionFaults::coarseStep},
     };
-    std::vector<std::pair<Measure, Measured>> sound; // each once, whatever faults it sees
+    std::vector<std::pair<Measure, Measured>> sound; // each measured once, for all of its faults
     for (const Fault& fault : everyNth(faults, 3)) {
         SCOPED_TRACE(fault.what);
         const auto measure = [&](const ShaderMutant& shaders) { return (this->*fault.seenBy)(shaders.tree()); };

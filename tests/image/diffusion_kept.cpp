@@ -1,4 +1,4 @@
-// Spread light from frame to frame: what is kept, what is spread anew, and what is added in slices.
+// Diffused irradiance from frame to frame: what is cached, what is recomputed, and what is added in slices.
 
 #include "tests/image/DiffusionTest.h"
 #include "tests/image/EnvironmentTest.h"
@@ -12,7 +12,7 @@ using namespace test;
 
 class KeptDiffusion : public DiffusionTest {};
 
-/// Names of the passes of the latest frame that spread light.
+/// Names of the diffusion passes of the latest frame.
 std::vector<std::string> passesThatSpread(engine::Renderer& renderer) {
     std::vector<std::string> names;
     for (const gpu::PassTiming& timing : renderer.backend().passTimings())
@@ -20,8 +20,8 @@ std::vector<std::string> passesThatSpread(engine::Renderer& renderer) {
     return names;
 }
 
-/// The camera and settings of pixels change, then what lights. With maps, outside of a whole sweep, settings of pixels
-/// do not: they are the same passes' as with rays.
+/// Changes the camera and per-pixel settings, then the lighting. With shadow maps, outside of a whole sweep, skips
+/// per-pixel settings: their passes are those of traced shadows.
 TEST_SWEEP(KeptDiffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
     for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
         scenes::Scene ball = sphereScene(0.03, 12);
@@ -56,11 +56,11 @@ TEST_SWEEP(KeptDiffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
             moved([&] { ofPixels(Technique::Forward, 1, false, frame::DebugView::Final); }, true);
             moved([&] { ofPixels(Technique::Deferred, 1, true, frame::DebugView::Normal); }, true);
             moved([&] { settings.view = frame::DebugView::Final; }, true);
-            // The other side of a comparison.
+            // A comparison switches diffusion off and on.
             moved([&] { settings.subsurface = scenes::SubsurfaceMethod::None; }, true);
             moved([&] { settings.subsurface.reset(); }, true);
         }
-        // Pixels of several samples may look up any texel, so that all are lit, once.
+        // Multisampled pixels may look up any texel, so all texels are lit, once.
         moved([&] { ofPixels(Technique::Forward, 4, true, frame::DebugView::Final); }, false);
         if (!isShort) {
             moved([&] { ofPixels(Technique::Forward, 1, true, frame::DebugView::Final); }, true);
@@ -73,7 +73,7 @@ TEST_SWEEP(KeptDiffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
         ball.materials[0].subsurface.preScatterShare = 1.0f;
         renderer.materialsChanged();
         moved([] {}, false);
-        // Of a highlight, which leaves where it arrives.
+        // A highlight leaves where it enters.
         ball.materials[0].specularColor = glm::vec3(0.5f);
         ball.materials[0].metallic = 0.0f;
         ball.materials[0].perceptualRoughness = 0.3f;
@@ -82,7 +82,7 @@ TEST_SWEEP(KeptDiffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
     }
 }
 
-/// enteredMaterial() says so of the key under which it is kept, takeEnteredValues() in the shader of the light itself.
+/// enteredMaterial() removes these from the cache key, takeEnteredValues() from the shader of the entering light.
 TEST_F(KeptDiffusion, lightThatEntersIsTheSameWhateverLayersHighlightAndEmissionASurfaceHas) {
     for (const bool prune : {true, false}) {
         scenes::Scene ball = sphereScene(0.03, 12);
@@ -112,7 +112,7 @@ TEST_F(KeptDiffusion, lightThatEntersIsTheSameWhateverLayersHighlightAndEmission
 
 TEST_F(KeptDiffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnotherWay) {
     scenes::Scene ball = sphereScene(0.03, 12);
-    // Another colour from every side.
+    // A different colour from every direction.
     const auto surround = [&](double brightness) {
         ball.environment = environmentOf(8, 4, [&](int x, int y) { return brightness * glm::dvec3(x, y, 8 - x); });
     };
@@ -180,7 +180,7 @@ TEST_F(KeptDiffusion, lightOfAnAreaLightIsSpreadAnewWhereItIsFoundAnotherWay) {
     EXPECT_FALSE(spreadsWith({frame::AreaLights::Ltc, 4})) << "which takes no samples";
 }
 
-/// Of light spread at half the resolution and in one Gaussian: both, either and neither, or both in every other step.
+/// Diffusion at half resolution and with one Gaussian: all four combinations, or both together in every second step.
 TEST_SWEEP(KeptDiffusion, lightingOnlyWhatIsSeenChangesNoBit) {
     scenes::Scene ball = sphereScene(0.03, 24);
     ball.cameras[0].projection = scenes::Projection::Perspective;
@@ -196,7 +196,7 @@ TEST_SWEEP(KeptDiffusion, lightingOnlyWhatIsSeenChangesNoBit) {
             engine::Renderer renderer(context(), seen), all(context(), ball);
             settings.prune = true;
             for (int step = 0; step < 7; step += isWholeSweep() ? 1 : 2) {
-                // Around the ball, then so near that most of it lies outside of the picture.
+                // Around the ball, then so near that most of it is outside of the image.
                 const double angle = 0.9 * step, metres = step < 5 ? 0.12 : 0.045;
                 const glm::dvec3 eyeWS(metres * std::sin(angle), 0.02 - 0.01 * step, metres * std::cos(angle));
                 ball.cameras[0].worldFromCamera = scenes::worldFromLookAt(eyeWS, glm::dvec3(0.0));
@@ -210,7 +210,7 @@ TEST_SWEEP(KeptDiffusion, lightingOnlyWhatIsSeenChangesNoBit) {
         }
 }
 
-/// Whole and at half the resolution, or the latter.
+/// At full and half resolution, or only at half.
 TEST_SWEEP(KeptDiffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
     scenes::Scene ball = sphereScene(0.03, 24);
     for (scenes::Light& light : ball.lights) light.castsShadow = true;
@@ -252,7 +252,7 @@ TEST_SWEEP(KeptDiffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
         EXPECT_EQ(drawKnown(), fresh().radiance);
         EXPECT_TRUE(passesThatSpread(renderer).empty());
 
-        // Another camera sees what is not known yet.
+        // Another camera reveals tiles that are not lit yet.
         lookFrom(2.5);
         const std::vector<float> known = drawKnown(), whole = fresh().radiance;
         EXPECT_FALSE(renderer.spreadProgress().isDone());
@@ -305,7 +305,7 @@ TEST_F(KeptDiffusion, whereNoLightIsKnownItLeavesWhereItEntersAndNothingOldShows
     const std::vector<float> none = fresh.render(Technique::Deferred, settings).radiance;
     ASSERT_EQ(limited.size(), none.size());
     for (std::size_t i = 0; i < none.size(); ++i) ASSERT_NEAR(limited[i], none[i], 1e-4f + 1e-3f * std::abs(none[i]));
-    // And back: what was told of the texels does not pass for light.
+    // And back: tiles marked as unknown do not count as lit.
     ball.lights[0].intensity = intensity;
     settings.subsurface.reset();
     renderer.limitSpreadLight({});

@@ -1,4 +1,4 @@
-// What enters and leaves by albedo, model and side of the light, against closed forms.
+// Entering and leaving light by albedo, material model and side of the light, against closed forms.
 
 #include "scenes/builtin/Pictures.h"
 #include "tests/image/DiffusionTest.h"
@@ -10,14 +10,14 @@ using scenes::SubsurfaceMethod;
 using namespace test;
 namespace builtin = scenes::builtin;
 
-/// The step without the shadows of plates: a square under its sun.
+/// Settings of the step without the shadows of plates: a square under its sun.
 frame::FrameSettings squareSettings(int side) {
     return withoutShadows(stepSettings(side));
 }
 
-/// Under even light, a surface of two colours: what enters has the first power of the albedo, and spreads; what leaves
-/// is multiplied with the other power. With the two powers taken for each other, red beside the edge is half as bright
-/// again.
+/// A surface of two colours under uniform light. Entering light is multiplied by one power of the albedo and diffused;
+/// leaving light is multiplied by the other power. With the powers swapped, the red channel beside the edge is half as
+/// bright again.
 TEST_F(DiffusionTruth, albedoCountsBeforeAndAfterSpreadingByItsShares) {
     const glm::dvec3 dark(0.2, 0.3, 0.5), bright(0.9, 0.8, 0.7);
     scenes::Scene scene = stepScene();
@@ -44,12 +44,12 @@ TEST_F(DiffusionTruth, albedoCountsBeforeAndAfterSpreadingByItsShares) {
         };
         const double error = errorOf(pictureOf(renderer, squareSettings(512)), scene.cameras[0], truth).l2;
         fmt::print("{} of the albedo before: {:.2e}\n", before, error);
-        EXPECT_LE(error, 2.5e-3) << before; // a step's bar, whose contrast is larger
+        EXPECT_LE(error, 2.5e-3) << before; // the limit of a step, whose contrast is larger
     }
 }
 
-/// A quarter and half of the narrowest Gaussian are reflected by pixels at 128 texels, all of it is spread at 256. A
-/// light of pi through 1 / pi, without a dielectric lobe, is that of lambert.
+/// At 128 texels, pixels reflect 70 % of the narrowest Gaussian undiffused; at 256, all of it is diffused. At an
+/// intensity of pi, a BRDF of 1 / pi without a dielectric lobe equals lambert.
 TEST_F(DiffusionTruth, metallicRoughnessSpreadsAStepAsTheClosedFormSays) {
     const auto asMetallicRoughness = [](scenes::Scene& scene) {
         for (scenes::Material& material : scene.materials) {
@@ -62,8 +62,8 @@ TEST_F(DiffusionTruth, metallicRoughnessSpreadsAStepAsTheClosedFormSays) {
     EXPECT_LE(stepError(128, asMetallicRoughness).l2, 0.017);
 }
 
-/// Even light straight from above, seen from there: cosines of 1, at which the Fresnel factor is F0, metallic times the
-/// colour without a dielectric lobe. Of light that spreads, of light that pixels reflect, and of both.
+/// Uniform light from straight above, viewed from there: at cosines of 1 the Fresnel factor is F0, metallic times the
+/// colour without a dielectric lobe. For diffused light, for light that pixels reflect, and for both.
 TEST_F(DiffusionTruth, metalsReflectDiffuselyWhatTheFresnelFactorLeaves) {
     const glm::dvec3 color(0.6, 0.4, 0.8);
     constexpr double kMetallic = 0.4;
@@ -90,9 +90,9 @@ TEST_F(DiffusionTruth, metalsReflectDiffuselyWhatTheFresnelFactorLeaves) {
     }
 }
 
-/// Light that has spread leaves by the Fresnel factor of the angle at which the viewer looks, whichever way it came:
-/// nearly along the surface a third of what leaves straight up. Of metallic_roughness with F0 and F90 of a metal's
-/// share, as above, and a sun straight above whose light enters by F0.
+/// Diffused light leaves by the Fresnel factor of the viewing angle, whatever its entry angle: at this grazing angle a
+/// third of the radiance straight up. For metallic_roughness with F0 and F90 of the metallic part, as above, and a sun
+/// straight above, whose light enters by F0.
 TEST_F(DiffusionTruth, lightThatHasSpreadLeavesByTheFresnelFactorOfTheViewersAngle) {
     constexpr double kColor = 0.5, kMetallic = 0.4, kCosine = 0.15;
     scenes::Scene scene = stepScene();
@@ -117,8 +117,8 @@ TEST_F(DiffusionTruth, lightThatHasSpreadLeavesByTheFresnelFactorOfTheViewersAng
         ASSERT_NEAR(double(picture.pixel(i)[0]), wanted, 1e-3 * wanted) << i;
 }
 
-/// Where light is the same everywhere and the viewer looks along the normal, it leaves as if it had not spread: below a
-/// coat, of an area light as wide as it is far, of an environment.
+/// Under uniform light, viewed along the normal, diffusion changes nothing: below a coat, for an area light as wide as
+/// it is far, and for an environment.
 TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {
     struct Case {
         const char* name;
@@ -172,8 +172,8 @@ TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {
     }
 }
 
-/// What enters a surface is what its layers leave of the light, which only pixels know: its texels have none. Left out
-/// or set to nothing.
+/// Layers attenuate entering light per pixel; texels have no layers. They give the same bits whether pruned or set to
+/// zero.
 TEST_F(DiffusionTruth, layersAreNoPartOfTheLightThatEnters) {
     scenes::Scene scene = stepScene();
     for (scenes::Material& material : scene.materials) {
@@ -183,7 +183,7 @@ TEST_F(DiffusionTruth, layersAreNoPartOfTheLightThatEnters) {
         material.emissive = glm::vec3(0.1f);
     }
     const auto picture = [&](bool prune) {
-        engine::Renderer renderer(context(), scene); // its own, which keeps no light of the other
+        engine::Renderer renderer(context(), scene); // a new one without cached light
         frame::FrameSettings settings = squareSettings(128);
         settings.sizePixels = {64, 8};
         settings.prune = prune;
@@ -192,8 +192,8 @@ TEST_F(DiffusionTruth, layersAreNoPartOfTheLightThatEnters) {
     EXPECT_TRUE(picture(false).rgba == picture(true).rgba);
 }
 
-/// A slab of 10 mm before a sun: the same everywhere, however far light spreads. Where a Gaussian is narrower than
-/// texels, what passes stays in these, since pixels reflect light from the front alone.
+/// A slab of 10 mm in front of a sun: transmitted light is uniform for any diffusion width. For a Gaussian narrower
+/// than texels it stays in the texels, since pixels reflect light from the front only.
 TEST_F(DiffusionTruth, lightFromBehindSpreadsOverTheSideWhereItLeaves) {
     constexpr double kThickness = 0.01, kHalf = 0.05;
     scenes::Scene scene = stepScene();
@@ -202,7 +202,7 @@ TEST_F(DiffusionTruth, lightFromBehindSpreadsOverTheSideWhereItLeaves) {
                                 {-kHalf, kHalf, 0.0});
     scenes::builtin::appendQuad(slab, {kHalf, -kHalf, -kThickness}, {-kHalf, -kHalf, -kThickness},
                                 {-kHalf, kHalf, -kThickness}, {kHalf, kHalf, -kThickness});
-    // A chart for each side.
+    // One chart per side.
     for (std::size_t i = 0; i < slab.positionsOS.size(); ++i) {
         const glm::vec2 place = (glm::vec2(slab.positionsOS[i]) / float(2.0 * kHalf) + 0.5f) * 0.4f + 0.05f;
         slab.texCoords[0][i] = i < 4 ? place : place + 0.5f;

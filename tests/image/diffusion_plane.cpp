@@ -1,4 +1,4 @@
-// Light that spreads over a plane against closed forms.
+// Diffusion over a plane against closed forms.
 
 #include "tests/image/DiffusionTest.h"
 
@@ -8,11 +8,11 @@ namespace {
 using namespace test;
 namespace builtin = scenes::builtin;
 
-/// The most that is asked at a side of the atlas. The same passes computed in double precision err by less, and by more
-/// than the bars where a width is wrong by a tenth: a step at 256 texels by 5.7e-3 and from 6.8e-3 on, at 512 by 1.5e-3
-/// and from 5.4e-3 on; a dot at 512 by 0.0187 and from 0.0217 on. Where light does not spread at all, a step errs by
-/// 0.089. At 256 texels a dot of so few is no more than a check that both directions spread: 0.108, with widths along v
-/// of half or twice the right ones 0.135 and 0.160.
+/// Error limits by the side of the atlas. The same passes in double precision err less, and a width off by a tenth errs
+/// more than the limits: a step at 256 texels 5.7e-3 against 6.8e-3 or more, at 512 1.5e-3 against 5.4e-3 or more; a
+/// dot at 512 0.0187 against 0.0217 or more. Without diffusion a step errs by 0.089. At 256 texels the dot has so few
+/// texels that it only checks diffusion along both directions: 0.108, and 0.135 and 0.160 with half or twice the width
+/// along v.
 struct PlaneBars {
     int side;
     double step, dot, dotEnergy;
@@ -20,7 +20,7 @@ struct PlaneBars {
 constexpr PlaneBars kPlaneBars[] = {
     {256, 6.5e-3, 0.115, 0.055}, {512, 2.5e-3, 0.0205, 0.02}, {1024, 8e-4, 0.0135, 0.03}, {2048, 3e-4, 0.005, 0.01}};
 
-/// Errors at some sides of the atlas; each must be at most 0.7 of the one before.
+/// Checks errors at several sides of the atlas; each step error must be at most 0.7 of the one before.
 void expectConvergence(std::span<const PlaneBars> allBars, const std::function<TruthError(int)>& step,
                        const std::function<TruthError(int)>& dot) {
     double before = 0.0;
@@ -31,7 +31,7 @@ void expectConvergence(std::span<const PlaneBars> allBars, const std::function<T
                    ofDot.energy);
         EXPECT_LE(ofStep.l2, bars.step) << side;
         EXPECT_LE(ofStep.l2, before > 0.0 ? 0.7 * before : 1.0) << side;
-        // The dot is as round as texels make it.
+        // Texels limit the roundness of the dot.
         EXPECT_LE(ofDot.l2, bars.dot) << side;
         EXPECT_NEAR(ofDot.energy, 1.0, bars.dotEnergy) << side;
         before = ofStep.l2;
@@ -54,11 +54,11 @@ TEST_F(DiffusionTruthSlow, aStepAndADotSpreadAsTheClosedFormsSay) {
     EXPECT_LE(turned, 1e-3); // measured 4.8e-4; at 512 texels a width wrong by a tenth adds 0.004
 }
 
-/// Errors of the means of pictures over places of the edge within a texel: what interpolation between texels adds to
-/// the spreading is a tent on the mean only. Along u, along v.
+/// Errors of the mean image over edge positions within a texel: on the mean, interpolation between texels only adds the
+/// blur of a tent. Along u, along v.
 TEST_F(DiffusionTruth, anEdgeAnywhereBetweenTexelsSpreadsByTheClosedFormOnTheMean) {
     constexpr int kTexels = 256, kPlaces = 4;
-    constexpr double kShare = 0.9; // of the coordinates, so that they can be moved
+    constexpr double kShare = 0.9; // scale of the coordinates, so that they can be moved
     scenes::Scene scene = stepScene();
     engine::Renderer renderer(context(), scene);
     for (const bool alongV : {false, true}) {
@@ -83,7 +83,7 @@ TEST_F(DiffusionTruth, anEdgeAnywhereBetweenTexelsSpreadsByTheClosedFormOnTheMea
     }
 }
 
-// After a narrow Gaussian a wide one, neighbours, and those between which taps grow apart.
+// A wide Gaussian after a narrow one, similar widths, and widths between which tap spacing grows.
 TEST_F(DiffusionTruth, anyTwoWidthsSpreadAStepAsTheClosedFormSays) {
     for (const auto& [narrow, wide] : {std::pair(0.71, 17.9), {0.3, 30.0}, {1.5, 4.5}, {2.6, 5.0}, {5.0, 9.0}}) {
         const double error = stepErrorOf(narrow, wide);
@@ -113,7 +113,7 @@ TEST_F(DiffusionTruth, fewerGaussiansAndHalfTheResolutionAreNearTheClosedForms) 
         before = own;
     }
     fmt::print("all: {:.2e}, at half the resolution {:.2e}, {:.2e} of as many texels\n", all, halved, smaller);
-    // Four texels of light are the mean of one that is spread, which widens it by a sixteenth of its area.
+    // Each diffused texel is the mean of four lit ones, which widens it by a sixteenth of its area.
     EXPECT_LT(halved, 1.3 * smaller);
     EXPECT_LT(smaller, 0.017); // in double precision 0.0155
     EXPECT_LT(halved, 0.0205); // the same, 0.0186
@@ -122,7 +122,7 @@ TEST_F(DiffusionTruth, fewerGaussiansAndHalfTheResolutionAreNearTheClosedForms) 
 TEST_F(DiffusionTruth, stretchedAndSlantedTexturesChangeNothing) {
     const double plain = stepError(256).l2;
     for (const double stretch : {10.0, 100.0}) {
-        // Squares so narrow that both directions have as many texels.
+        // Shrinks the square so that both directions keep the same number of texels.
         const double own = stepError(256, [&](scenes::Scene& scene) {
                                for (glm::vec3& position : scene.meshes[0].positionsOS) position.z /= float(stretch);
                                mapTexture(scene, {{1.0, 0.0}, {0.0, stretch}});
@@ -141,8 +141,8 @@ TEST_F(DiffusionTruth, stretchedAndSlantedTexturesChangeNothing) {
     }
 }
 
-/// Edges along which light is the same lie across v, and at all angles to the texture. Means along the edge, since it
-/// is as straight as texels make it.
+/// Edges of the light across v and at various angles to the texture. Uses means along the edge, which is only as
+/// straight as texels make it.
 TEST_F(DiffusionTruth, lightSpreadsAlikeAlongBothDirectionsOfATurnedOrSlantedTexture) {
     scenes::Scene scene = scenes::loadScene("diffusion_truth");
     engine::Renderer renderer(context(), scene);

@@ -14,7 +14,7 @@ using namespace test;
 class Edits : public ImageTest {
 protected:
     static frame::FrameSettings small() { return ofSize(160, 91); }
-    /// Compares a renderer's picture after an edit with a new renderer's.
+    /// Compares the image of a renderer after an edit with a new renderer's.
     void expectSameAsNew(const std::function<void(scenes::Scene&)>& edit, bool ofMaterials,
                          scenes::Scene scene = everythingScene()) {
         engine::Renderer renderer(context(), scene);
@@ -31,7 +31,7 @@ protected:
 };
 
 TEST_F(Edits, factorsOfMaterialsAreDrawnAsByANewRenderer) {
-    // The first keeps materials in its pixels, the second their numbers.
+    // With the first scene the G-buffer stores material values, with the second material indices.
     for (const scenes::Scene& scene : {everythingScene(), evenScene()}) {
         float step = 0.0f;
         expectSameAsNew(
@@ -48,7 +48,7 @@ TEST_F(Edits, factorsOfMaterialsAreDrawnAsByANewRenderer) {
 }
 
 TEST_F(Edits, tangentsAreDerivedAnewWhereAMaterialFollowsOthersThanBefore) {
-    // Anisotropy and coats that begin, and end again. Others of the scene keep both features in use.
+    // Anisotropy and coats are added and removed; other materials keep both features in use.
     std::vector<std::size_t> turned;
     expectSameAsNew(
         [&turned](scenes::Scene& scene) {
@@ -143,10 +143,10 @@ TEST_F(Edits, lightsAndCamerasAreDrawnAsTheyAre) {
         false);
 }
 
-/// Which programs a frame needs, told before it is drawn: the window says so while it compiles them.
+/// Programs that a frame needs, listed before it is drawn: the window reports them while it compiles them.
 class ProgramsOf : public ImageTest {
 protected:
-    /// Draws, and holds what was told to what was compiled.
+    /// Draws, and compares the programs listed before with those compiled.
     void expectTold(engine::Renderer& renderer, const frame::FrameSettings& settings, const char* what, bool isOther) {
         std::set<std::string> keys;
         for (const shader::ProgramDesc& program : renderer.programsOf(Technique::ClusteredDeferred, settings))
@@ -171,7 +171,7 @@ TEST_F(ProgramsOf, tellsWhatAnEditMakesDrawingCompile) {
     light.castsShadow = false;
     light.radiusMetres = 0.0f;
     light.falloff = scenes::Light().falloff;
-    scene.lights.reserve(2); // its place stays
+    scene.lights.reserve(2); // keeps the element's address
     scene.lights.push_back(light);
     frame::FrameSettings settings = ofSize(32, 18);
     engine::Renderer renderer(context(), scene);
@@ -180,7 +180,7 @@ TEST_F(ProgramsOf, tellsWhatAnEditMakesDrawingCompile) {
 
     struct Edit {
         const char* what;
-        bool isOther; ///< needs other programs than all before
+        bool isOther; ///< needs programs that no earlier edit needed
         std::function<void()> edit;
     };
     scenes::Light& own = scene.lights[0];

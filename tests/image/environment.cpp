@@ -1,4 +1,4 @@
-// Light from everywhere in frames: techniques, what is left out, options, and what can be told without a reference.
+// Environment light in frames: techniques, pruning, options, and checks without a reference.
 #include <memory>
 #include <numbers>
 
@@ -26,9 +26,9 @@ TEST_SWEEP_AS(Environment, everyTechniqueGivesTheSamePictureToTheLastBit, Enviro
         scenes::Scene scene;
         EnvironmentLight light;
         int samples;
-        std::vector<Technique> techniques; ///< besides forward; none: all
+        std::vector<Technique> techniques; ///< besides forward; empty: all
     };
-    // Compiling takes nearly all of the time: where each technique has been seen, few suffice for all features.
+    // Nearly all of the time is compilation: once each technique is covered, a few cover all features.
     scenes::Material occluded;
     occluded.metallic = 0.3f;
     occluded.texture(scenes::TextureSlot::Occlusion).image = 0;
@@ -59,7 +59,7 @@ TEST_SWEEP_AS(Environment, everyTechniqueGivesTheSamePictureToTheLastBit, Enviro
     }
 }
 
-/// In filtered light and that of samples, or in filtered light: what else is left out does not depend on it.
+/// Filtered and sampled light, or only filtered light: other pruning does not depend on it.
 TEST_SWEEP_AS(Environment, leavingOutWhatTheSceneDoesNotNeedChangesNoBit, EnvironmentPicturesSlow,
               leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
     struct Case {
@@ -69,7 +69,7 @@ TEST_SWEEP_AS(Environment, leavingOutWhatTheSceneDoesNotNeedChangesNoBit, Enviro
     std::vector<Case> cases{{scenes::loadScene("spheres"), EnvironmentLight::SplitSum}};
     if (isWholeSweep()) cases.push_back({evenScene(), EnvironmentLight::Sampled});
     for (Case& one : cases) {
-        one.scene.environment = builtinEnvironment(isWholeSweep() ? "sky" : "studio"); // which is made faster
+        one.scene.environment = builtinEnvironment(isWholeSweep() ? "sky" : "studio"); // the studio is made faster
         frame::FrameSettings settings = withDiffusion(ofSize(96, 54));
         settings.environment.light = one.light;
         settings.environment.samples = 4;
@@ -95,8 +95,7 @@ TEST_F(Environment, aSceneWithoutOneHasNoTraceOfIt) {
 }
 
 TEST_F(Environment, theBackdropIsTheMapAndTurnsWithIt) {
-    // A camera that looks along -z sees the middle of the map, and turned by 90 degrees what lies a quarter to the
-    // right.
+    // A camera that looks along -z shows the middle of the map; turned by 90 degrees, the part a quarter to the right.
     scenes::Scene scene = quadScene(unlit());
     scene.nodes[0].parentFromNode[3] = glm::dvec4(0.0, 0.0, 100.0, 1.0); // behind the camera
     scene.environment = environmentOf(64, 32, [](int x, int y) { return glm::dvec3(x, y, 1.0); });
@@ -109,15 +108,15 @@ TEST_F(Environment, theBackdropIsTheMapAndTurnsWithIt) {
         EXPECT_NEAR(middle[1], 15.5, 1e-3);
         EXPECT_EQ(middle[2], 1.0f);
         EXPECT_EQ(middle[3], 0.0f) << "nothing covers it";
-        // To the right in the picture is to the right in the map, and up is up.
+        // Right in the image is right in the map, and up is up.
         EXPECT_GT(seen[4 * (4 * 9 + 8)], middle[0]);
         EXPECT_LT(seen[4 * 4 + 1], middle[1]);
     }
 }
 
-/// Light that is linear in the direction is linear when it is blurred: a lobe shortens the direction by the same factor
-/// everywhere. Interpolation bends it by the square of a triangle's size, where across the edges of the octahedron,
-/// which are the planes of the map's axes, a bilinear sampler shows lines of 0.014.
+/// Blurring keeps radiance linear that is linear in the direction: a lobe shortens the direction by the same factor
+/// everywhere. Interpolation errs by the square of a triangle's size. A bilinear sampler shows lines of 0.014 across
+/// the edges of the octahedron, which are the planes of the map's axes.
 TEST_F(Environment, aBlurredBackdropShowsNoEdgesOfItsMap) {
     const glm::dvec3 gradient(0.55, 0.35, -0.6);
     scenes::Scene scene = quadScene(unlit());
@@ -139,7 +138,7 @@ TEST_F(Environment, aBlurredBackdropShowsNoEdgesOfItsMap) {
             for (int x = 0; x < kSidePixels; ++x) {
                 const glm::dvec2 place = (2.0 * glm::dvec2(x + 0.5, y + 0.5) / double(kSidePixels) - 1.0) * halfHeight;
                 const glm::dvec3 ray = glm::normalize(glm::dvec3(place.x, -place.y, -1.0));
-                // Counter-clockwise seen from above, the map turns; in the map, the ray turns back.
+                // The map turns counter-clockwise, viewed from above; in the map, the ray turns back.
                 const glm::dvec3 inMap(ray.x * std::cos(radians) - ray.z * std::sin(radians), ray.y,
                                        ray.x * std::sin(radians) + ray.z * std::cos(radians));
                 const double wanted = glm::dot(gradient, inMap);
@@ -160,11 +159,11 @@ TEST_F(Environment, aBlurredBackdropShowsNoEdgesOfItsMap) {
 
 TEST_F(Environment, aMatteBallShowsTheIrradianceOfOneBrightTexel) {
     // One texel of 64 x 32, a lamp of known solid angle, gives k_d L cos dw; no other light.
-    constexpr int kX = 8, kY = 10; // before the ball
+    constexpr int kX = 8, kY = 10; // in front of the ball
     scenes::Material matte = lambert();
     scenes::Scene scene = ballUnderSky(matte);
     scene.environment = environmentOf(64, 32, [&](int x, int y) { return glm::dvec3(x == kX && y == kY ? 1e5 : 0.0); });
-    // Interpolation spreads the texel over its neighbours: its light is that of a tent.
+    // Interpolation distributes the texel's light over its neighbours as a tent.
     glm::dvec3 towards(0.0);
     constexpr int kParts = 32;
     for (int j = -kParts; j < kParts; ++j)
@@ -188,7 +187,7 @@ TEST_F(Environment, aMatteBallShowsTheIrradianceOfOneBrightTexel) {
                 error += std::abs(double(seen[std::size_t(4 * (y * kSidePixels + x))]) - truth);
                 sum += truth;
             }
-        // Facets of a sphere of 96 x 48, and of harmonics their order.
+        // Errors of the triangles of a sphere of 96 x 48, and of the order of the harmonics.
         EXPECT_LE(error / sum, 0.01) << infoOf(how).name;
     }
 }
@@ -251,7 +250,7 @@ TEST_F(Environment, aLightThatIsShownAloneIsAloneBeforeTheBackdrop) {
         return strictRadiance(of, plain);
     };
     EXPECT_EQ(truth(scene), truth(dark));
-    // Nothing is held to be filtered light's error.
+    // The tolerance allows no error of filtered light.
     EXPECT_EQ(validation::referenceTolerance(scene, settings).reason,
               validation::referenceTolerance(dark, settings).reason);
     const graph::Plan plan = engine::planFrame(scene, Technique::Deferred, settings);
@@ -261,7 +260,7 @@ TEST_F(Environment, aLightThatIsShownAloneIsAloneBeforeTheBackdrop) {
 }
 
 TEST_F(Environment, aMirrorBallShowsEachDirectionWhereItLies) {
-    // Squares of 8 x 8 texels: away from their edges a mirror shows black or white.
+    // Squares of 32 x 32 texels: away from their edges a mirror shows black or white.
     scenes::Material mirror = metalOf(0.0);
     scenes::Scene scene = ballUnderSky(mirror);
     constexpr int kWidth = 512, kHeight = 256, kSquare = 32;
@@ -277,10 +276,10 @@ TEST_F(Environment, aMirrorBallShowsEachDirectionWhereItLies) {
             for (int x = 0; x < kSidePixels; ++x) {
                 const glm::dvec2 at =
                     1.02 * (glm::dvec2(2.0 * x + 1.0 - kSidePixels, kSidePixels - 1.0 - 2.0 * y) / double(kSidePixels));
-                if (glm::dot(at, at) > 0.6) continue; // beyond, a pixel sees much of the map
+                if (glm::dot(at, at) > 0.6) continue; // further out, a pixel covers much of the map
                 const glm::dvec3 normal(at, std::sqrt(1.0 - glm::dot(at, at)));
                 const glm::dvec3 mirrored = 2.0 * normal.z * normal - glm::dvec3(0.0, 0.0, 1.0);
-                // Turned counter-clockwise seen from above, what is at longitude l was at l + 30 degrees of the map.
+                // Turned counter-clockwise, viewed from above: longitude l shows what was at l + 30 degrees of the map.
                 const glm::dvec2 place = scenes::placeInMap(mirrored);
                 const double column = std::fmod(place.x * kWidth + kWidth * 30.0 / 360.0, double(kWidth));
                 const double row = place.y * kHeight;
@@ -346,8 +345,8 @@ TEST_F(EnvironmentPicturesSlow, extremeIndicesAndRoughnessesGiveFiniteLight) {
             }
 }
 
-/// A model with textures in the studio, against the same model unlit, and against a shader whose look-ups of filtered
-/// light are constants: what is left of the cost is arithmetic. Light lists are none, so all of it is the environment.
+/// A textured model in the studio, against the same model unlit, and against a shader with constants for look-ups of
+/// filtered light: the rest of the cost is arithmetic. There are no light lists, so all of it is the environment.
 TEST_F(EnvironmentCostSlow, ofAModelWithoutLights) {
     const auto file = fileOfAssets("WaterBottle/WaterBottle.gltf");
     if (!file) GTEST_SKIP() << "there is no WaterBottle in the folder of assets";

@@ -1,4 +1,4 @@
-// The errors of the split sum that docs/environment.md tells.
+// Errors of the split sum, against those stated in docs/environment.md.
 #include <cstdio>
 #include <iterator>
 #include <sstream>
@@ -16,11 +16,11 @@ using namespace test;
 
 class EnvironmentSlow : public EnvironmentTest {};
 
-/// Of one channel of a picture of ballUnderSky().
+/// Errors of one channel of an image of ballUnderSky().
 struct BallFigures {
     double relMse, noise; ///< noise of the reference, as relMse
-    double meanError;     ///< the mean over pixels whose mean square relMse is
-    double brightest;     ///< over the reference, in 999 of 1000 pixels at most
+    double meanError;     ///< the mean over pixels of the error whose mean square is relMse
+    double brightest;     ///< ratio to the reference that 999 of 1000 pixels stay below
     double pixels;
 };
 BallFigures ballFigures(const std::vector<float>& seen, const validation::ReferencePicture& truth) {
@@ -40,14 +40,14 @@ BallFigures ballFigures(const std::vector<float>& seen, const validation::Refere
     return {squares / count, noise / count, errors / count, over[over.size() * 999 / 1000], count};
 }
 
-/// By how much more light a ball shows than the reference, on a picture of its own: a highlight of roughness 0.125 is
-/// a hundredth of the ball wide. Where that is half a pixel the sum hangs on where pixels happen to lie, by 20 % and
-/// more; with 200 of them across it is within 0.2 % of that of any finer picture.
+/// Relative excess light of a ball over the reference, from a larger image: a highlight of roughness 0.125 is a
+/// hundredth of the ball wide. Where that is half a pixel, the sum depends on pixel positions by 20 % and more; with
+/// 200 pixels across, it is within 0.2 % of any finer image.
 double biasOfBall(engine::Renderer& renderer, const scenes::Scene& scene, frame::FrameSettings settings) {
     settings.sizePixels = {200, 200};
     reference::Settings wanted = validation::referenceSettings(scene, settings);
     wanted.leeway = false;
-    wanted.environmentPaths = 64; // of 31,000 pixels together: noise of 2e-4
+    wanted.environmentPaths = 64; // over 31,000 pixels: noise of 2e-4
     const reference::Rendered truth = reference::render(scene, wanted);
     const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
     double shown = 0.0, light = 0.0;
@@ -62,7 +62,7 @@ double biasOfBall(engine::Renderer& renderer, const scenes::Scene& scene, frame:
 struct StatedError {
     double bias, relMse;
 };
-/// Of the table of docs/environment.md: a row's errors, environment by environment. Empty for a row that it lacks.
+/// Errors by environment of a row of the table in docs/environment.md. Empty if the row is missing.
 std::vector<StatedError> statedErrors(const std::string& row) {
     const std::string document = textOf(kRepository / "docs/environment.md"), start = "\n| " + row + " |";
     std::vector<StatedError> errors;
@@ -78,8 +78,8 @@ std::vector<StatedError> statedErrors(const std::string& row) {
     return errors;
 }
 
-/// The errors that docs/environment.md tells, by which the split sum is judged, and its other bars: a bias of a
-/// hundredth on matte surfaces, and no fireflies. Samples err by their noise alone.
+/// Holds the split sum to the errors stated in docs/environment.md and to other limits: a bias of a hundredth on matte
+/// surfaces, and no fireflies. Sampled light errs by its noise alone.
 TEST_F(EnvironmentSlow, theErrorOfTheSplitSumByRoughnessAndEnvironment) {
     const std::pair<const char*, scenes::Environment> environments[] = {
         {"studio", builtinEnvironment("studio")},
@@ -104,11 +104,11 @@ TEST_F(EnvironmentSlow, theErrorOfTheSplitSumByRoughnessAndEnvironment) {
         row.material.metallic = 1.0f;
         row.material.perceptualRoughness = float(roughness);
     }
-    // The page rounds errors to a digit, which may be half as much less than what it stands for.
+    // The page rounds errors to one digit; the actual error may be half as large again.
     constexpr double kRounded = 1.5;
-    // Half of the last digit of a bias, and three standard errors of the reference: 1e-2 a pixel of 1200.
+    // Half of the last digit of a bias, and three standard errors of the reference: 1e-2 per pixel, 1200 pixels.
     constexpr double kLeastBias = 1.5e-3;
-    constexpr double kRoundingError = 1e-5; // of sums in single precision, where light is even
+    constexpr double kRoundingError = 1e-5; // of sums in single precision, under uniform light
     for (std::size_t column = 0; column < std::size(environments); ++column) {
         const auto& [name, environment] = environments[column];
         for (const Row& row : rows) {
@@ -127,11 +127,11 @@ TEST_F(EnvironmentSlow, theErrorOfTheSplitSumByRoughnessAndEnvironment) {
             // A lobe of the wrong shape is up to 5.4 times too bright at an edge; a firefly of that sun would be 1e2
             // and more.
             EXPECT_LE(ball.brightest, 8.0);
-            // The reference is close enough to tell by how much the split sum errs where that is much.
+            // The reference is accurate enough to measure errors of the split sum that are large.
             EXPECT_LE(ball.noise, std::max(0.1 * ball.relMse, 4e-4));
             if (&row == &rows[0]) {
                 EXPECT_LE(std::abs(bias), 0.01);
-                EXPECT_LE(ball.relMse, 3e-3); // most of it where the sun stands at the horizon
+                EXPECT_LE(ball.relMse, 3e-3); // most of it with the sun at the horizon
             }
             if (row.material.perceptualRoughness == 0.0f) continue; // a mirror: EnvironmentMirrors
             const std::vector<StatedError> stated = statedErrors(row.name);
@@ -141,14 +141,14 @@ TEST_F(EnvironmentSlow, theErrorOfTheSplitSumByRoughnessAndEnvironment) {
             settings.environment.light = EnvironmentLight::Sampled;
             settings.environment.samples = 256;
             const BallFigures sampled = ballFigures(renderer.render(Technique::Deferred, settings).radiance, truth);
-            // Pixels that take the same run of the map's samples err alike.
+            // Errors of pixels with the same run of the map's samples are correlated.
             const double alone =
                 std::min(sampled.pixels, double(1 << ENVIRONMENT_SAMPLES_LOG2) / settings.environment.samples);
             const double standardError = std::sqrt((sampled.relMse - sampled.meanError * sampled.meanError) / alone);
             std::printf("%-8s %-22s sampled %+.2e, standard error %.1e\n", name, row.name.c_str(), sampled.meanError,
                         standardError);
             EXPECT_LE(std::abs(sampled.meanError), 3.0 * standardError + kRoundingError);
-            EXPECT_LE(standardError, 5e-3); // so small that 2 % too much or too little would show
+            EXPECT_LE(standardError, 5e-3); // so that an error of 2 % would show
         }
     }
 }

@@ -1,5 +1,5 @@
-// What the split sum does between its exact cases: known answers that the reference's wide bars do not hold, and faults
-// in shaders that each of them alone must see.
+// The split sum between its exact cases: known answers that the reference's wide tolerances cannot check, and shader
+// faults that only these answers detect.
 #include <iterator>
 
 #include "shaders/shared/environment.h"
@@ -15,7 +15,7 @@ using engine::Technique;
 using frame::EnvironmentLight;
 using namespace test;
 
-/// Each error is in parts of what is allowed.
+/// Each error is relative to its limit.
 class EnvironmentLobes : public EnvironmentTest {
 public:
     double errorOfMirrorBlend(const shader::SourceTree& shaders);
@@ -25,19 +25,19 @@ public:
     double errorOfLean(const shader::SourceTree& shaders);
 
 protected:
-    /// Of these alphas along and across the tangent: alpha is the square of roughness, and the larger one lies
+    /// Sets these alphas along and across the tangent: alpha is the square of roughness, and the larger one lies
     /// strength^2 of the way from it to 1 (KHR_materials_anisotropy).
     static void brush(scenes::Material& material, double along, double across) {
         material.perceptualRoughness = float(std::sqrt(across));
         material.anisotropyStrength = float(std::sqrt((along - across) / (1.0 - across)));
     }
-    /// A quad so far away that one direction sees all of the picture.
+    /// A quad so far away that all pixels share one view direction.
     static scenes::Scene flatQuad(const scenes::Material& material, double cosView = 1.0) {
         scenes::Scene scene = quadScene(material);
         lookAtCosine(scene.cameras[0], cosView, 0.05);
         return scene;
     }
-    /// Red of its middle; forward stores no surface, and so rounds no alpha.
+    /// Red of its middle; forward stores no surface, so alpha is not quantised.
     double shown(const scenes::Scene& scene, const shader::SourceTree& shaders, bool compensates = false) {
         frame::FrameSettings settings = ofSize(2, 2);
         settings.environment.compensates = compensates;
@@ -45,12 +45,12 @@ protected:
     }
 };
 
-/// Below the first level (0.01 - alpha) / 0.009 of a lobe is a mirror. Seen straight on all look where the sun stands,
-/// whose texel a mirror shows, and the first level half as bright at most.
+/// Below the first level, (0.01 - alpha) / 0.009 of a lobe is a mirror. Viewed straight on, all pixels look at the
+/// sun's texel: a mirror shows it, and the first level half as bright at most.
 double EnvironmentLobes::errorOfMirrorBlend(const shader::SourceTree& shaders) {
     constexpr double kSun = 100.0;
     scenes::Scene scene = flatQuad({});
-    // Odd sides: the middle of a texel looks along +z where the map is turned by half a turn.
+    // Odd sizes: the centre of a texel lies along +z if the map is turned by half a turn.
     scene.environment =
         environmentOf(255, 127, [](int x, int y) { return glm::dvec3(x == 127 && y == 63 ? kSun : 0.0); });
     scene.environment->rotationDegrees = 180.0f;
@@ -68,8 +68,8 @@ double EnvironmentLobes::errorOfMirrorBlend(const shader::SourceTree& shaders) {
     return worst / kAllowed;
 }
 
-/// A grey metal in even light: what it reflects once, F0 A + B of the published table (shading.md section 6), times
-/// what comes back, 1 + F' lost / (1 - F' lost), with the mean F' of its Fresnel factor (Fdez-Aguera 2019).
+/// A grey metal under uniform light: single reflection, F0 A + B of the published table (shading.md section 6), times
+/// multiple scattering, 1 + F' lost / (1 - F' lost), with the mean Fresnel factor F' (Fdez-Aguera 2019).
 double EnvironmentLobes::errorOfBounces(const shader::SourceTree& shaders) {
     constexpr double kStraight = 0.5, kMean = kStraight + (1.0 - kStraight) / 21.0;
     constexpr double kRoughness[] = {0.5, 0.75, 1.0}, kCosines[] = {0.1, 0.5, 1.0};
@@ -86,11 +86,11 @@ double EnvironmentLobes::errorOfBounces(const shader::SourceTree& shaders) {
             const double wanted = once * (1.0 + kMean * lost / (1.0 - kMean * lost));
             worst = std::max(worst, std::abs(shown(scene, shaders, true) - wanted));
         }
-    return worst / 1.5e-3; // of the lobe's table 1e-3, of what comes back half of it
+    return worst / 1.5e-3; // 1e-3 for the lobe's table, half of it for multiple scattering
 }
 
-/// Of a lobe seen straight on, the mean of x^2 - y^2 over the directions of its light, x along the tangent. By facets
-/// of all slopes, as their density weighs them, times height-correlated masking with the alpha along the light (Heitz
+/// Mean of x^2 - y^2 over the light directions of a lobe viewed straight on, x along the tangent. Integrates
+/// microfacets of all slopes by their density, times height-correlated masking with the alpha along the light (Heitz
 /// 2014).
 double stretchOfLobe(double along, double across) {
     constexpr int kRings = 400, kTurns = 96;
@@ -112,8 +112,8 @@ double stretchOfLobe(double along, double across) {
     return sum / weights;
 }
 
-/// In light of 1 + x^2 - y^2 a lobe that is long along x gains, and would lose the same if its axes were swapped. The
-/// split sum weighs its taps by the cosine in place of masking, and so finds 0.8 of that; taps as wide as can be 0.27.
+/// Under radiance 1 + x^2 - y^2 a lobe that is long along x gains, and with swapped axes would lose the same. The split
+/// sum weights its taps by the cosine instead of masking, and so finds 0.8 of that; taps as wide as can be 0.27.
 double EnvironmentLobes::errorOfBrushing(const shader::SourceTree& shaders) {
     constexpr double kAlong = 0.7, kAcross = 0.16, kFound = 0.8, kAllowed = 0.2;
     scenes::Scene scene = flatQuad({});
@@ -128,8 +128,8 @@ double EnvironmentLobes::errorOfBrushing(const shader::SourceTree& shaders) {
     return std::abs(found - kFound) / kAllowed;
 }
 
-/// A lamp of 5 x 5 texels, 7 degrees wide, in the streak that a brushed metal makes of it: how far it falls between two
-/// places that are brighter. Taps as wide as their gaps leave 0.14, as levels between two keep the peak of the sharper;
+/// A lamp of 5 x 5 texels, 7 degrees wide, reflected as a streak by brushed metal: the largest relative dip between two
+/// brighter places. Taps as wide as their gaps leave 0.14, as interpolated levels keep the peak of the sharper one;
 /// taps as narrow as the shorter axis are dots, and leave 0.94.
 double EnvironmentLobes::errorOfStreak(const shader::SourceTree& shaders) {
     constexpr double kAllowed = 0.4;
@@ -138,7 +138,7 @@ double EnvironmentLobes::errorOfStreak(const shader::SourceTree& shaders) {
     scenes::Material metal;
     brush(metal, 0.4, 0.01);
     scenes::Scene scene = kPlane.sceneOf(metal);
-    // Where the normal looks, which the viewer sees mirrored where the plane faces him.
+    // In the direction of the normal, which is mirrored where the plane faces the viewer.
     const glm::ivec2 lamp(scenes::placeInMap(kPlane.normal()) * glm::dvec2(kSkyWidth, kSkyHeight));
     scene.environment = skyOf([&](int x, int y) {
         const int across = std::min(std::abs(x - lamp.x % kSkyWidth), kSkyWidth - std::abs(x - lamp.x % kSkyWidth));
@@ -162,8 +162,8 @@ double EnvironmentLobes::errorOfStreak(const shader::SourceTree& shaders) {
     return deepest / kAllowed;
 }
 
-/// The mean cosine to its axis of what a lobe sees that is seen straight on, weighted by that cosine (Karis 2013): over
-/// the lean of facets up to 45 degrees.
+/// Mean cosine to the axis of the light gathered by a lobe viewed straight on, weighted by that cosine (Karis 2013):
+/// integrates over microfacet tilts up to 45 degrees.
 double meanCosineOfLobe(double alpha) {
     constexpr int kSteps = 4000;
     double weights = 0.0, sum = 0.0;
@@ -177,8 +177,8 @@ double meanCosineOfLobe(double alpha) {
     return sum / weights;
 }
 
-/// In light of 1 + x / 2 a lobe shows half its axis's x besides 1, times its mean cosine. The axis lies s (sqrt(s) +
-/// alpha) of the way from the normal to the mirror image of the viewer, s = 1 - alpha (Lagarde and de Rousiers 2014).
+/// Under radiance 1 + x / 2 a lobe gathers 1 plus half its axis's x times its mean cosine. The axis lies s (sqrt(s) +
+/// alpha) of the way from the normal to the viewer's mirror direction, s = 1 - alpha (Lagarde and de Rousiers 2014).
 double EnvironmentLobes::errorOfLean(const shader::SourceTree& shaders) {
     constexpr double kCosine = 0.6, kSine = 0.8, kAllowed = 0.01;
     scenes::Scene scene = flatQuad({}, kCosine);
@@ -218,7 +218,7 @@ struct LobeFault {
     const char* file; ///< below shaders/
     const char* from;
     const char* to;
-    double (EnvironmentLobes::*errorOf)(const shader::SourceTree& shaders); ///< the one that must see it
+    double (EnvironmentLobes::*errorOf)(const shader::SourceTree& shaders); ///< the measure that must detect it
 };
 
 constexpr LobeFault kLobeFaults[] = {
@@ -242,14 +242,13 @@ TEST_F(EnvironmentLobes, everyFaultIsSeenByItsKnownAnswer) {
         const ShaderMutant shaders(fault.file, fault.from, fault.to);
         const double error = (this->*fault.errorOf)(shaders.tree());
         fmt::print("{:38} {:.1f} times what is allowed\n", fault.fault, error);
-        EXPECT_FALSE(error <= 1.5) << fault.fault; // NaN counts as seen
+        EXPECT_FALSE(error <= 1.5) << fault.fault; // NaN counts as detected
     }
 }
 
-// Shaders of environments with one fault each: techniques share them and agree, the reference shares nothing and does
-// not.
+// Environment shaders with one fault each: techniques share them and agree; the reference is independent and disagrees.
 
-/// A white metal before an even sky shows the sky, however flat it is seen.
+/// A white metal under a uniform sky shows the sky, even at grazing angles.
 TEST_F(EnvironmentLobes, metalSeenAlmostEdgeOnStillShowsTheSky) {
     const ShaderMutant shaders;
     for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
@@ -298,7 +297,7 @@ constexpr EnvironmentFault kEnvironmentFaults[] = {
 
 class EnvironmentFaults : public EnvironmentTest {
 protected:
-    /// relMSE of a ball under a lamp of 25 texels, turned aside, against the reference.
+    /// relMSE against the reference of a ball under a rotated lamp of 25 texels.
     double errorOf(const EnvironmentFault& fault, const shader::SourceTree& shaders) {
         scenes::Scene scene = ballUnderSky(fault.roughness < 0.0f ? lambert() : metalOf(fault.roughness));
         scene.environment = environmentOf(64, 32, [](int x, int y) {
@@ -324,7 +323,7 @@ TEST_SWEEP(EnvironmentFaults, areSeenByTheReference) {
         const double faulty = errorOf(fault, shaders.tree());
         fmt::print("{:34} relMSE {:.1e}, without it {:.1e}\n", fault.fault, faulty, plain);
         EXPECT_LE(plain, 0.15); // the shapes of the split sum's lobes
-        // NaN counts as seen.
+        // NaN counts as detected.
         EXPECT_FALSE(faulty <= 2.0 * plain + 1e-2);
     }
 }

@@ -1,4 +1,4 @@
-// Mirrors of an environment against its map, looked up in double precision.
+// Mirror reflections of an environment against its map, looked up in double precision.
 #include <numbers>
 
 #include "shaders/shared/environment.h"
@@ -29,7 +29,7 @@ double squaresAt(int x, int y) {
     return (x / 8 + y / 8) % 2 == 0 ? 1.0 : 0.05;
 }
 
-/// A sun in the texel that the middle of a pixel shows.
+/// A sky with a sun in the texel that the centre of a pixel mirrors.
 SkyRadiance sunShownBy(int pixelX, int pixelY) {
     const glm::ivec2 sun(scenes::placeInMap(mirroredByPixel(pixelX, pixelY)) * glm::dvec2(kSkyWidth, kSkyHeight));
     return [sun](int x, int y) { return x == sun.x && y == sun.y ? kSunRadiance : 0.1; };
@@ -45,7 +45,7 @@ struct MirrorCase {
     std::function<double(double cosView)> reflected;
 };
 
-/// Lobes of each kind above black.
+/// Each kind of lobe above black.
 std::vector<MirrorCase> mirrorCases() {
     using scenes::MaterialModel;
     const scenes::Material black = blackDielectric();
@@ -106,7 +106,7 @@ TEST_SWEEP(EnvironmentMirrors, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsF
                     for (int x = 0; x < kMirrorPixels; ++x) {
                         const float* const pixel = &seen[std::size_t(4 * (y * kMirrorPixels + x))];
                         const double cosView = glm::dot(kMirror.normal(), kMirror.toViewer(x, y));
-                        // Away from where total reflection begins, which steepens what rounding does.
+                        // Excludes the onset of total reflection, which amplifies rounding.
                         if (pixel[3] == 0.0f || cosView < 0.02 || std::abs(cosView * cosView - 0.4375) < 1e-4) continue;
                         const SeenSky truth = seenOfSky(map, mirroredByPixel(x, y));
                         const double share = one.reflected(cosView);
@@ -124,7 +124,7 @@ TEST_SWEEP(EnvironmentMirrors, everyLobeOfRoughnessZeroShowsTheMapTimesFresnelsF
     }
 }
 
-/// By samples it keeps its lobe; no filtered level is as sharp.
+/// Sampled light keeps the lobe; no filtered level is as sharp, so the split sum reads the map.
 TEST_F(EnvironmentMirrors, aHighlightOfAHugeExponentShowsTheMapTimesWhatItReflectsOfEvenLight) {
     constexpr double kExponent = 1e8;
     scenes::Material gloss = materialOf(scenes::MaterialModel::BlinnPhong);
@@ -142,7 +142,7 @@ TEST_F(EnvironmentMirrors, aHighlightOfAHugeExponentShowsTheMapTimesWhatItReflec
             if (seen[std::size_t(4 * (y * kMirrorPixels + x) + 3)] == 0.0f || cosView < 0.1) continue;
             const SeenSky truth = seenOfSky(squaresAt, mirroredByPixel(x, y));
             const double share = 1e6 * 8.0 * std::numbers::pi * cosView / kExponent; // (n.h)^p over 4 n.v dh
-            // Of the table half a percent.
+            // Half a percent for the table.
             const double error = share * (2e-3 * (truth.most - truth.least) + 5e-3 * truth.radiance);
             ASSERT_NEAR(seen[std::size_t(4 * (y * kMirrorPixels + x))], share * truth.radiance, error)
                 << x << ", " << y;
@@ -172,11 +172,11 @@ TEST_SWEEP(EnvironmentMirrors, aBallShowsWhatTheReferenceShowsOfIt) {
                 for (int x = 0; x < kBallPixels; ++x) {
                     const glm::dvec2 at = 1.02 * (glm::dvec2(2.0 * x + 1.0 - kBallPixels, kBallPixels - 1.0 - 2.0 * y) /
                                                   double(kBallPixels));
-                    if (glm::dot(at, at) > 0.6) continue; // beyond, a pixel sees much of the map
+                    if (glm::dot(at, at) > 0.6) continue; // further out, a pixel covers much of the map
                     const double cosView = std::sqrt(1.0 - glm::dot(at, at));
-                    if (std::abs(2.0 * cosView * at.y) > 0.9) continue; // about its poles columns are narrow
+                    if (std::abs(2.0 * cosView * at.y) > 0.9) continue; // columns are narrow near the poles
                     const auto i = std::size_t(4 * (y * kBallPixels + x));
-                    // A tenth of a texel; total reflection begins at an edge.
+                    // A tenth of a texel; total reflection begins abruptly.
                     const double error = 0.1 * one.reflected(cosView) + (one.material.ior < 1.0f ? 0.1 : 0.0);
                     ASSERT_NEAR(seen[i], truth.picture.rgba[i], error)
                         << one.name << ", " << infoOf(how).name << " at " << x << ", " << y;
@@ -205,7 +205,7 @@ TEST_SWEEP(EnvironmentMirrors, everyTechniqueGivesTheSamePictureAndPruningChange
     for (const Case& one : {Case{0.0f, 0.0f, EnvironmentLight::SplitSum},
                             {0.0f, 0.0f, EnvironmentLight::Sampled},
                             {0.07f, 0.2f, EnvironmentLight::SplitSum},
-                            {0.11f, 0.11f, EnvironmentLight::SplitSum}}) { // not so smooth as to read the map
+                            {0.11f, 0.11f, EnvironmentLight::SplitSum}}) { // too rough to read the map
         SCOPED_TRACE(fmt::format("{}, roughness {} and {}", infoOf(one.how).name, one.roughness, one.coatRoughness));
         material.perceptualRoughness = one.roughness;
         material.clearcoatPerceptualRoughness = one.coatRoughness;
@@ -218,7 +218,7 @@ TEST_SWEEP(EnvironmentMirrors, everyTechniqueGivesTheSamePictureAndPruningChange
     }
 }
 
-/// From the map to its first filtered level, and where programs cease to read the map.
+/// Between the map and its first filtered level, and where programs stop reading the map.
 TEST_F(EnvironmentMirrors, lightOfTheSplitSumIsContinuousInAlpha) {
     scenes::Material gloss = materialOf(scenes::MaterialModel::Microfacet);
     gloss.baseColor = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);

@@ -1,4 +1,4 @@
-// Light from everywhere against the reference and published tables.
+// Environment light against the reference and published tables.
 #include <iterator>
 
 #include "tests/image/AreaLightTest.h"
@@ -12,12 +12,12 @@ using engine::Technique;
 using frame::EnvironmentLight;
 using namespace test;
 
-// Of light that is the same everywhere, in parts of what is reflected of it; measured as 0.006, 0.005 and 0.1.
-constexpr double kEvenError = 0.01;            ///< noise of samples and of the reference, tables between their places
-constexpr double kInnerReflectionError = 0.02; ///< tables where total reflection begins
-constexpr double kTwoAlphasError = 0.12;       ///< the table of one alpha, the mean of two
-constexpr double kFacetsError = 0.025;         ///< of 24 for a lobe of two alphas
-constexpr double kLeastError = 1e-5;           ///< absolute, where next to nothing is reflected
+// Errors under uniform light, relative to the reflected light; measured 0.006, 0.005 and 0.1.
+constexpr double kEvenError = 0.01;            ///< noise of samples and of the reference, interpolation of tables
+constexpr double kInnerReflectionError = 0.02; ///< tables at the onset of total reflection
+constexpr double kTwoAlphasError = 0.12;       ///< the table has one alpha, the mean of two
+constexpr double kFacetsError = 0.025;         ///< of 24 microfacets for a lobe of two alphas
+constexpr double kLeastError = 1e-5;           ///< absolute, where reflection is nearly zero
 
 struct EvenCase {
     std::string name;
@@ -46,7 +46,7 @@ TEST_F(EnvironmentTruth, theBackdropIsThatOfTheReferenceInEveryPixel) {
             ASSERT_NEAR(seen[c], truth.picture.rgba[c], 1e-3) << i / 4; // steps of a texel, and fp32 angles
 }
 
-/// E(mu, alpha) of a height-correlated GGX lobe with F = 1, shading.md section 6: good to 2e-4. Compensated, all of it.
+/// E(mu, alpha) of a height-correlated GGX lobe with F = 1, shading.md section 6, to 2e-4; with compensation 1.
 TEST_F(EnvironmentTruth, aWhiteFurnaceLosesWhatThePublishedTableSays) {
     constexpr double kCosines[] = {0.1, 0.25, 0.5, 0.75, 1.0};
     constexpr double kAlphas[] = {0.05, 0.1, 0.25, 0.5, 0.75, 1.0};
@@ -72,7 +72,7 @@ TEST_F(EnvironmentTruth, aWhiteFurnaceLosesWhatThePublishedTableSays) {
                 const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
                 double mean = 0.0;
                 for (std::size_t i = 0; i < seen.size(); i += 4) mean += double(seen[i]) * 4.0 / double(seen.size());
-                // 256 pixels of 1024 samples of the lobe, whose worth spreads by less than 1, leave 2e-3 / 3.
+                // 256 pixels of 1024 samples of the lobe, whose weights vary by less than 1, leave 2e-3 / 3.
                 EXPECT_NEAR(mean, compensates ? 1.0 : kReflected[a][m],
                             light == EnvironmentLight::SplitSum ? 1e-3 : 2e-3)
                     << infoOf(light).name << ", cosine " << kCosines[m] << ", alpha " << kAlphas[a]
@@ -82,8 +82,8 @@ TEST_F(EnvironmentTruth, aWhiteFurnaceLosesWhatThePublishedTableSays) {
     }
 }
 
-/// Against another integration of the same light: means agree within three of their standard errors. With the second of
-/// two maps lobes are compensated, which by default the white furnace above shows alone.
+/// Against an independent integration: means agree within three standard errors. The second of two maps also tests
+/// compensation, which in a short sweep only the white furnace above covers.
 TEST_SWEEP(EnvironmentTruth, samplesAgreeWithTheReferenceWithinThreeStandardErrors) {
     scenes::Scene scene = scenes::loadScene("models");
     scene.lights.clear();
@@ -107,7 +107,7 @@ TEST_SWEEP(EnvironmentTruth, samplesAgreeWithTheReferenceWithinThreeStandardErro
                 own += double(seen[4 * i + c]);
                 other += double(truth.picture.rgba[4 * i + c]);
             }
-            // By the light of the pixel, so that no bright one decides alone.
+            // Relative to the light of the pixel, so that no bright one dominates.
             const double error = (own - other) / (own + other + 1e-3);
             sum += error;
             squares += error * error;
@@ -121,13 +121,13 @@ TEST_SWEEP(EnvironmentTruth, samplesAgreeWithTheReferenceWithinThreeStandardErro
     }
 }
 
-/// Of a map of few texels, each far from its neighbours: what a direction weighs hangs on which texel it lies in.
+/// A map of few texels with high contrast: a direction's weight depends on the texel that it lies in.
 TEST_F(EnvironmentTruth, samplesOfCoarseMapsAreWeighedByTheTexelThatTheyLieIn) {
     scenes::Scene scene = quadScene({});
     makeOrthographic(scene.cameras[0], 0.5);
     scene.environment = environmentOf(
         16, 8, [](int x, int y) { return glm::dvec3((y % 3 == 0 ? 40.0 : 0.1) + (x % 5 == 2 ? 20.0 : 0.0)); });
-    scene.environment->rotationDegrees = 180.0f; // so that the quad sees the map's middle
+    scene.environment->rotationDegrees = 180.0f; // so that the quad faces the map's middle
     frame::FrameSettings settings = ofSize(16, 16);
     settings.environment.light = EnvironmentLight::Sampled;
     settings.environment.samples = 1024;
@@ -142,12 +142,12 @@ TEST_F(EnvironmentTruth, samplesOfCoarseMapsAreWeighedByTheTexelThatTheyLieIn) {
                 own += double(seen[i]);
                 wanted += double(truth.picture.rgba[i]);
             }
-            // 256 pixels of 3 x 1024 samples each, and as many of the reference.
+            // 256 pixels of 3 x 1024 samples each, and as many in the reference.
             EXPECT_NEAR(own / wanted, 1.0, 3e-3) << "roughness " << roughness << ", metallic " << metallic;
         }
 }
 
-/// Materials of every model, with black below lobes that are to be seen alone.
+/// Materials of every model, with black below lobes to isolate them.
 std::vector<EvenCase> evenCases() {
     using scenes::MaterialModel;
     std::vector<EvenCase> cases;
@@ -219,13 +219,13 @@ std::vector<EvenCase> evenCases() {
     return cases;
 }
 
-/// Both ways to find light against the reference, where it is the same from everywhere.
+/// Both methods of environment light against the reference, under uniform radiance.
 void EnvironmentTruth::expectEven(const std::vector<EvenCase>& cases, bool compensates) {
     constexpr int kCellPixels = 4;
     constexpr double kCosines[] = {0.9, 0.5, 0.15};
     constexpr int kRows = int(std::size(kCosines));
     const int columns = int(cases.size());
-    // A square a cell of a metre, seen along -z; each tilts about x and is as long as it then looks short.
+    // A square per cell of a metre, viewed along -z; each tilts about x and is stretched to fill its cell.
     scenes::Scene scene = quadScene({});
     scene.materials.clear();
     scene.nodes.clear();
@@ -275,13 +275,13 @@ void EnvironmentTruth::expectEven(const std::vector<EvenCase>& cases, bool compe
     }
 }
 
-/// In the light of a map that is the same everywhere both ways to find it are exact but for their tables and their
-/// noise, so that what a surface reflects is known to one number, whatever its lobe.
+/// Under uniform radiance both methods are exact except for tables and noise, so that the reflection of any lobe is one
+/// known number.
 TEST_F(EnvironmentTruth, everyModelReflectsEvenLightAsTheReferenceDoes) {
     expectEven(evenCases(), false);
 }
 
-/// What is reflected between microfacets leaves through the layers above them: left out, a coat is off by 21 % with
+/// Light scattered between microfacets leaves through the layers above them: without these, a coat is off by 21 % with
 /// samples, and coat and sheen together by 76 % with the split sum.
 TEST_F(EnvironmentTruth, layersLieOverWhatCompensationAdds) {
     std::vector<EvenCase> cases;
@@ -294,16 +294,16 @@ TEST_F(EnvironmentTruth, layersLieOverWhatCompensationAdds) {
             one.material.clearcoatPerceptualRoughness = 0.2f;
             one.material.sheenColor = glm::vec3(sheen);
             one.material.sheenPerceptualRoughness = 0.5f;
-            // Each layer weakens by its mean over all light what the reference weakens light by light.
+            // Each layer attenuates by its mean over all light; the reference attenuates light by light.
             if (isCoated || sheen > 0.0f) one.splitSumError = one.sampledError = 0.05;
         }
     expectEven(cases, true);
 }
 
-/// A coat has a normal of its own, here tilted by 37 degrees towards +x: it mirrors what lies at 74 degrees from the
+/// A coat has its own normal, here tilted by 37 degrees towards +x: it mirrors what lies at 74 degrees from the
 /// surface's normal, on one side.
 TEST_F(EnvironmentTruth, aCoatSeesWhatItsOwnNormalMirrors) {
-    scenes::Material coat = blackDielectric(); // the coat is all there is
+    scenes::Material coat = blackDielectric(); // isolates the coat
     coat.specularFactor = 0.0f;
     coat.clearcoat = 1.0f;
     coat.texture(scenes::TextureSlot::ClearcoatNormal).image = 0;
@@ -319,7 +319,7 @@ TEST_F(EnvironmentTruth, aCoatSeesWhatItsOwnNormalMirrors) {
         EXPECT_GT(wanted, 0.01f) << what;
         EXPECT_NEAR(seen, wanted, error * double(wanted)) << what;
     };
-    // Light grows along +x: ahead of the surface it is half as bright as where the coat looks.
+    // Radiance grows along +x: straight ahead it is half as bright as in the coat's mirror direction.
     for (const float roughness : {0.0f, 0.3f}) {
         scene.materials[0].clearcoatPerceptualRoughness = roughness;
         scene.environment = environmentOf(64, 32, [](int x, int y) {
@@ -327,7 +327,7 @@ TEST_F(EnvironmentTruth, aCoatSeesWhatItsOwnNormalMirrors) {
         });
         for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
             settings.environment.light = light;
-            // The lobe leans towards the normal, and light is steep.
+            // The lobe leans towards the normal, and the radiance changes steeply.
             expectAsReference(roughness > 0.0f && light == EnvironmentLight::SplitSum ? 0.05 : 0.01,
                               fmt::format("{}, roughness {}", infoOf(light).name, roughness));
         }

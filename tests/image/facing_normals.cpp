@@ -1,4 +1,4 @@
-// Lit normals that turn away from the viewer on surfaces that face it.
+// Shading normals that point away from the viewer on surfaces that face the viewer.
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -19,8 +19,8 @@ using namespace test;
 constexpr double kFacingLeast = 1.0 / 64.0; ///< kLeastFacing of shaders/lib/raster/facing.glsl
 constexpr int kCoarseBallPixels = 64;
 
-/// Coarse balls side by side before an orthographic camera, with interpolated normals, turned so that some of these
-/// turn away from the viewer; no triangle that is seen is within a cosine of 0.037 of the horizon.
+/// Coarse balls side by side before an orthographic camera, with interpolated normals, rotated so that some point away
+/// from the viewer. No visible triangle is within a cosine of 0.037 of the horizon.
 scenes::Scene coarseBalls(const std::vector<scenes::Material>& materials) {
     constexpr double kHalfHeightMetres = 1.05;
     scenes::Scene scene = quadScene({});
@@ -46,7 +46,7 @@ scenes::Material whiteMetal() {
     return material;
 }
 
-/// Lobes of each kind.
+/// A material per kind of lobe.
 std::vector<scenes::Material> glossyMaterials() {
     scenes::Material brushed = whiteMetal();
     brushed.perceptualRoughness = 0.5f;
@@ -78,7 +78,7 @@ protected:
         settings.environment.backdrop = frame::Backdrop::Off;
         return settings;
     }
-    /// The view of normals, filtered either way: `judge` gets its pixels that are covered.
+    /// Renders the normal view with both filters, and passes its covered pixels to `judge`.
     template <typename Judge>
     void judgeNormals(const scenes::Scene& scene, Technique technique, const Judge& judge) {
         engine::Renderer renderer(context(), scene);
@@ -92,7 +92,7 @@ protected:
             judge(covered, filter);
         }
     }
-    /// Expects no pixel of a white metal in even light of radiance 1 to be dark, nor brighter than the light.
+    /// Expects no pixel of a white metal under uniform radiance of 1 to be dark, or brighter than the light.
     void expectNoDarkPixel(engine::Renderer& renderer, Technique technique, const frame::FrameSettings& settings,
                            double least, double most) {
         const std::vector<float> seen = renderer.render(technique, settings).radiance;
@@ -108,7 +108,7 @@ protected:
     }
 };
 
-/// 46 pixels have an interpolated normal that turns away, and 9 more one that faces the viewer by less than the least.
+/// 46 pixels have an interpolated normal that points away, and 9 more one below the minimum cosine.
 TEST_F(FacingNormals, faceTheViewerInEveryPixel) {
     const scenes::Scene scene = coarseBalls({whiteMetal()});
     for (const Technique technique : {Technique::Forward, Technique::Deferred})
@@ -116,15 +116,15 @@ TEST_F(FacingNormals, faceTheViewerInEveryPixel) {
             int bent = 0;
             for (const glm::dvec3& normal : normals) { // the viewer is at +z
                 EXPECT_GE(normal.z, kFacingLeast / std::hypot(1.0, kFacingLeast) - 1e-6);
-                bent += normal.z < 1.1 * kFacingLeast ? 1 : 0; // by a turn from at most 24 degrees below the horizon
+                bent += normal.z < 1.1 * kFacingLeast ? 1 : 0; // bent from at most 24 degrees below the horizon
             }
             EXPECT_GT(normals.size(), 2000u);
             EXPECT_GE(bent, 40);
         });
 }
 
-/// A metal without a colour of its own reflects from 0.88 to 1 of even light at any angle, at this roughness (the table
-/// of EnvironmentTruth.aWhiteFurnaceLosesWhatThePublishedTableSays); 0.03 is for the renderer's own tables.
+/// A white metal reflects 0.88 to 1 of uniform light at any angle, at this roughness (the table of
+/// EnvironmentTruth.aWhiteFurnaceLosesWhatThePublishedTableSays); 0.03 allows for the renderer's tables.
 TEST_F(FacingNormals, leaveNoDarkPixelOnACoarseBallOfMetalInEvenLight) {
     scenes::Scene scene = coarseBalls({whiteMetal()});
     scene.environment = evenEnvironment(1.0);
@@ -140,7 +140,7 @@ TEST_F(FacingNormals, leaveNoDarkPixelOnACoarseBallOfMetalInEvenLight) {
     expectNoDarkPixel(renderer, Technique::Deferred, settings, 0.85, 1.1); // with noise
 }
 
-/// The least cosine is beyond what a stored normal may be off by, so that no rounding turns one away again.
+/// The minimum cosine exceeds the error of stored normals, so that quantisation never turns one away again.
 TEST_F(FacingNormals, faceTheViewerInEveryLayoutOfTheGBuffer) {
     scenes::Scene scene = coarseBalls({whiteMetal()});
     scene.environment = evenEnvironment(1.0);
@@ -162,7 +162,7 @@ TEST_F(FacingNormals, areTheSameInEveryTechniqueToTheLastBit) {
     expectParity(renderer, settingsFor(materials.size()));
 }
 
-/// Of lights alone, which need no samples. As referenceTolerance() has it, and silhouettes aside.
+/// Lit by lights alone, which need no samples. Tolerances of referenceTolerance(), without silhouettes.
 TEST_F(FacingNormals, areThoseOfTheReference) {
     const std::vector<scenes::Material> materials = glossyMaterials();
     scenes::Scene scene = coarseBalls(materials);
@@ -182,8 +182,8 @@ TEST_F(FacingNormals, areThoseOfTheReference) {
     }
 }
 
-/// A floor whose normals are those of its triangles keeps them up to the horizon, where they face the viewer by less
-/// than the least. Bent ones would be off by up to 0.0156.
+/// A floor whose normals are those of its triangles keeps them up to the horizon, even below the minimum cosine. Bent
+/// ones would be off by up to 0.0156.
 TEST_F(FacingNormals, ofAFlatFloorStayAsTheyAreUpToItsHorizon) {
     constexpr double kRollRadians = 0.3;
     const glm::dvec3 up(-std::sin(kRollRadians), std::cos(kRollRadians), 0.0);
@@ -220,7 +220,7 @@ TEST_F(FacingNormals, ofAFlatFloorStayAsTheyAreUpToItsHorizon) {
     }
 }
 
-/// The same pictures as with bending left out, to the last bit: a flat surface is never bent, at any angle.
+/// Bit-identical images without bending: a flat surface is never bent, at any angle.
 TEST_F(FacingNormals, ofFlatSurfacesKeepEveryBit) {
     const ShaderMutant unbent("lib/raster/facing.glsl", "const float kLeastFacing = 1.0 / 64.0;",
                               "const float kLeastFacing = -2.0;");
@@ -234,7 +234,7 @@ TEST_F(FacingNormals, ofFlatSurfacesKeepEveryBit) {
     camera.farMetres = 1000.0;
     camera.fovYRadians = 0.2;
     camera.worldFromCamera = glm::translate(glm::dmat4(1.0), 0.05 * glm::dvec3(-std::sin(0.3), std::cos(0.3), 0.0));
-    // The same mutant is no mutant where normals turn away.
+    // Where normals turn away, the mutant changes the image.
     const scenes::Scene ball = coarseBalls({whiteMetal()});
     frame::FrameSettings settings = settingsFor(1);
     settings.view = frame::DebugView::Normal;
@@ -248,8 +248,8 @@ TEST_F(FacingNormals, ofFlatSurfacesKeepEveryBit) {
     }
 }
 
-/// A floor seen by parallel rays at one cosine, with normals of one direction that turns away from the viewer: of its
-/// vertices, of a map, of a back face. Triangles seen at a cosine c below 1/32 ask for c / 2, the others for 1/64.
+/// A floor viewed by parallel rays at one cosine, with normals of one direction that points away from the viewer: from
+/// vertices, from a map, of a back face. Triangles at a cosine c below 1/32 have a minimum of c / 2, others of 1/64.
 TEST_F(FacingNormals, areTurnedToHalfOfTheTrianglesOwnCosine) {
     constexpr double kDistanceMetres = 45.0;
     const glm::dvec3 leaningWS = glm::normalize(glm::dvec3(0.0, 1.0, -0.5)), middle(0.0, 0.0, -50.0);
@@ -269,7 +269,7 @@ TEST_F(FacingNormals, areTurnedToHalfOfTheTrianglesOwnCosine) {
             scene.images = {floatImage(glm::vec4(glm::vec3(leaningWS * 0.5 + 0.5), 1.0f))};
             scene.materials[0].texture(scenes::TextureSlot::Normal).image = 0;
         } else {
-            // Upside down; the back of a normal is what is seen.
+            // Upside down: the viewer sees the back of the normals.
             const glm::dmat4 over = glm::rotate(glm::dmat4(1.0), std::numbers::pi, glm::dvec3(0.0, 0.0, 1.0));
             scene.nodes[0].parentFromNode = scene.nodes[0].parentFromNode * over;
             mesh.normalsOS.assign(mesh.positionsOS.size(), glm::vec3(glm::transpose(glm::dmat3(over)) * -leaningWS));
@@ -292,8 +292,8 @@ TEST_F(FacingNormals, areTurnedToHalfOfTheTrianglesOwnCosine) {
                              for (const glm::dvec3& normal : normals)
                                  worst = std::max(worst, std::abs(glm::dot(normal, toViewerWS) / wanted - 1.0));
                              EXPECT_GT(normals.size(), 1000u);
-                             // The whole instead of the half is off by 1. The cosine is that of corners in fp32, or of
-                             // the change of depth from pixel to pixel.
+                             // The whole instead of the half is off by 1. The cosine is computed from corners in fp32,
+                             // or from the change of depth between pixels.
                              EXPECT_LT(worst, filter == frame::TextureFilter::Exact ? 2e-3 : 0.05)
                                  << "kind " << int(kind) << ", cosine " << cosine;
                          });

@@ -1,4 +1,4 @@
-// An eye far away with a narrow lens, and a light close to a surface: positions must keep their digits.
+// A distant eye with a narrow lens, and a light close to a surface: positions must keep their digits.
 #include <functional>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -21,7 +21,7 @@ constexpr Technique kTechniques[] = {Technique::Forward, Technique::Deferred, Te
 
 class FarEye : public ImageTest {
 protected:
-    /// 99.9 % of the pixels of every technique lie within `p999Rel` of the reference, and all techniques agree.
+    /// Expects 99.9 % of each technique's pixels within `p999Rel` of the reference, and all techniques to agree.
     void expectAgreement(const std::string& what, const scenes::Scene& scene, double p999Rel) {
         SCOPED_TRACE(what);
         engine::Renderer renderer(context(), scene);
@@ -39,14 +39,14 @@ protected:
             }
             EXPECT_TRUE(frame.radiance == first) << infoOf(technique).name;
             EXPECT_LE(figures.p999Rel, p999Rel) << infoOf(technique).name;
-            EXPECT_GE(figures.litShare, 0.3); // the visible surfaces fill a third of the picture or more
+            EXPECT_GE(figures.litShare, 0.3); // visible surfaces fill at least a third of the image
             EXPECT_LT(figures.excluded, 0.02);
         }
     }
 
     static scenes::Scene floorUnderLamp(double eyeMetres, double lampMetres) {
         scenes::Scene scene = validation::stressFarFloor(eyeMetres);
-        // Off the places where pixels' centres look.
+        // Not at a point that the centre of a pixel shows.
         scene.lights = {validation::stressLight({0.013, lampMetres, 0.007}, 1.0f)};
         return scene;
     }
@@ -58,7 +58,7 @@ protected:
     }();
 };
 
-/// The bar of pictures without textures (docs/reference.md).
+/// The tolerance of images without textures (docs/reference.md).
 constexpr double kBar = 3e-4;
 
 TEST_F(FarEye, aFloorUnderALampLooksAsInTheReferenceFromAnyDistance) {
@@ -69,8 +69,8 @@ TEST_F(FarEye, aFloorUnderALampLooksAsInTheReferenceFromAnyDistance) {
         }
 }
 
-/// Only the visible part of a plain that extends far beyond the picture counts for the depths. Its corners are
-/// rounded to 2^-24 of its width, and with them the lamp's distance, the square of which the light falls with.
+/// Depths depend only on the visible part of a plain that extends far beyond the image. Its corners are rounded to
+/// 2^-24 of its width, and so is the lamp's distance, by whose square the light falls off.
 TEST_F(FarEye, aFloorInAWidePlainLooksAsInTheReferenceFromAnyDistance) {
     for (const double eyeMetres : {1e3, 1e4}) {
         const double plainMetres = 4.0 * eyeMetres;
@@ -93,8 +93,8 @@ TEST_F(FarEye, aLightAMillimetreAboveAFloorLooksAsInTheReference) {
     expectAgreement("a light 1 mm above, 1 km", floorUnderLamp(1e3, 1e-3), kBar);
 }
 
-/// A floor that ends near the eye spreads the depths from there on. Twice 4 * 2^-24 of the distance is what a position
-/// may then be off by, over the lamp's distance (docs/numerics.md).
+/// A floor that ends near the eye extends the depth range to there. A position may be off by 4 * 2^-24 of the distance;
+/// the limit is twice that over the lamp's distance (docs/numerics.md).
 TEST_F(FarEye, aLightAMillimetreAboveAWideFloorKeepsTheDigitsThatDepthHas) {
     scenes::Scene scene = floorUnderLamp(10.0, 1e-3);
     scene.nodes[0].parentFromNode = glm::scale(scene.nodes[0].parentFromNode, glm::dvec3(30.0));
@@ -109,9 +109,9 @@ TEST_F(FarEye, parallelRaysSeeAFloorAsInTheReferenceFromAnyDistance) {
     }
 }
 
-/// Deferred lighting covers only the pixels of the draws' boxes, and rounding may move what is drawn beyond them.
+/// Deferred lighting covers only pixels within the draws' bounding boxes; rounding may move geometry beyond them.
 TEST_F(FarEye, deferredLightsEveryPixelOfWhatRoundingMoves) {
-    // Half of the picture is the quad's left half; a digit of its place in the world is an eighth of its side.
+    // The quad's left half fills half of the image; one ulp of its world position is an eighth of its side.
     scenes::Scene farOff = quadScene({});
     const double side = 1e-3, placeMetres = -1e12;
     farOff.nodes[0].parentFromNode =
@@ -119,7 +119,7 @@ TEST_F(FarEye, deferredLightsEveryPixelOfWhatRoundingMoves) {
     farOff.cameras[0].worldFromCamera = glm::translate(glm::dmat4(1.0), {placeMetres + side, 0.0, 4.0 * side});
     farOff.cameras[0].nearMetres = 1e-4;
     farOff.cameras[0].fovYRadians = glm::radians(1.0);
-    // Columns of the matrix that cancel: x is 0.3 (a - b) of coordinates a and b near 1e6.
+    // Matrix columns that cancel: x is 0.3 (a - b) of coordinates a and b near 1e6.
     scenes::Scene sheared = quadScene({});
     for (glm::vec3& position : sheared.meshes[0].positionsOS)
         position = {1e6f + 0.0625f * (position.x > 0.0f ? 1.0f : 0.0f), 1e6f, 0.01f * position.y};
@@ -150,13 +150,13 @@ TEST_F(FarEye, deferredLightsEveryPixelOfWhatRoundingMoves) {
     }
 }
 
-/// The ends of scenes/Limits.h.
+/// The limits of scenes/Limits.h.
 TEST_SWEEP(FarEye, techniquesAgreeAtTheLimitsOfLengths) {
     std::size_t turn = 0;
     scenes::Scene near = everythingScene();
     near.cameras[0].nearMetres = scenes::kNearestPlaneMetres;
     scenes::Scene vast = everythingScene();
-    const double scale = 0.05 * scenes::kFarthestMetres; // of a scene some 20 m wide
+    const double scale = 0.05 * scenes::kFarthestMetres; // the scene is some 20 m wide
     for (scenes::Node& node : vast.nodes)
         if (node.parent == scenes::kNone)
             node.parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(scale)) * node.parentFromNode;

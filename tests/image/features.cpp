@@ -27,7 +27,7 @@ struct Change {
     std::function<void(Scene&)> apply;
 };
 
-/// Each change alone, applied to the scene of every feature or another one, must show.
+/// Expects each change alone, applied to the scene of every feature or another one, to change the image.
 class Features : public ImageTest {
 protected:
     static frame::FrameSettings small() { return ofSize(160, 90); }
@@ -36,9 +36,8 @@ protected:
         for (std::size_t i = 0; i < a.pixelCount(); ++i) count += !std::equal(a.pixel(i), a.pixel(i) + 3, b.pixel(i));
         return count;
     }
-    /// Without pruning, so that all share programs, which take most of the time. In a whole sweep the scene with
-    /// pruning and every fourth change in forward too: else Glass compares such a scene with pruning, and Parity
-    /// techniques.
+    /// Without pruning, so that all share programs, whose compilation takes most of the time. A whole sweep also draws
+    /// the scene with pruning and every fourth change in forward; elsewhere Glass covers pruning and Parity techniques.
     void expectEachShows(const std::vector<Change>& changes, const Scene& base = everythingScene()) {
         std::size_t turn = 0;
         engine::Renderer baseRenderer(context(), base);
@@ -260,7 +259,7 @@ TEST_SWEEP(Features, everyVertexAttributeAndTransformChangesThePicture) {
          }},
         {"authored tangents",
          [](Scene& s) {
-             // Unlike the texture coordinates' own: turned by half a right angle, and mirrored.
+             // Differ from the tangents of the texture coordinates: turned by 45 degrees and mirrored.
              for (const glm::vec3& n : s.meshes[kSphereMesh].normalsOS) {
                  const glm::vec3 other = std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
                  s.meshes[kSphereMesh].tangentsOS.emplace_back(
@@ -342,7 +341,7 @@ TEST_F(Features, everyFrameSettingChangesItsOwnFeaturesOnly) {
     const engine::RenderedFrame base = renderer.render(Technique::Deferred, small());
     struct Setting {
         const char* what;
-        bool radiance; ///< whether radiance changes; the display picture always does
+        bool radiance; ///< whether radiance changes; the display image always does
         std::function<void(frame::FrameSettings&)> apply;
     };
     const std::vector<Setting> settings = {

@@ -1,4 +1,4 @@
-// Light that passes through surfaces: every technique, the reference, and what stays as it is beside or without them.
+// Transmission: parity of techniques, the reference, and unchanged bits beside it and without it.
 
 #include <gmock/gmock.h>
 
@@ -15,7 +15,7 @@ using namespace test;
 
 class Glass : public GlassTest {};
 
-/// Sheets and bodies among all other materials.
+/// Sheets and bodies of glass among all other materials.
 Scene sceneWithGlass() {
     Scene scene = everythingScene();
     Material& sheet = scene.materials[3]; // a textured sphere
@@ -34,8 +34,8 @@ Scene sceneWithGlass() {
     return scene;
 }
 
-/// Of a scene of everything, by itself and under a sky, or of a few surfaces, with every technique in either, and
-/// of everything with one.
+/// A scene of everything, with and without a sky. In a short sweep a few surfaces, with and without a sky, and
+/// everything with one technique.
 TEST_SWEEP(Glass, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
     const auto expectAlike = [&](Scene scene, bool isUnderSky, const std::vector<Technique>& techniques,
                                  bool comparesUnpruned) {
@@ -46,22 +46,22 @@ TEST_SWEEP(Glass, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
         expectParity(renderer, settings, techniques);
         if (comparesUnpruned) expectPruningIsUnseen(renderer, settings);
     };
-    // Compiling takes nearly all of the time: with the environment two suffice.
+    // Nearly all of the time is compilation: with the environment two techniques suffice.
     if (isWholeSweep()) {
         expectAlike(sceneWithGlass(), false, {}, true);
         expectAlike(sceneWithGlass(), true, {Technique::Deferred, Technique::ClusteredForward}, true);
         return;
     }
-    // Programs of all features are those of other tests too, where there is no environment.
+    // Without an environment, other tests share the programs of all features.
     expectAlike(fewWithGlass(), false, techniquesInTurn(0), false);
     expectAlike(fewWithGlass(), true, techniquesInTurn(1), false);
     expectAlike(sceneWithGlass(), false, {Technique::Deferred}, true);
 }
 
-/// Each alone, where it changes the picture: what surrounds it would outnumber its errors.
+/// Each material alone, over the pixels that it changes: other pixels would outnumber its errors.
 TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
     frame::FrameSettings settings = exactOfSize(96, 54);
-    settings.refraction = frame::Refraction::Environment; // what else bodies show hangs on the picture
+    settings.refraction = frame::Refraction::Environment; // other modes depend on the image
     const auto truthOf = [&](const Scene& scene) { return strictReference(scene, settings).picture; };
     const Scene without = everythingScene(), all = sceneWithGlass();
     const Picture before = truthOf(without);
@@ -93,8 +93,8 @@ TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
     for (std::size_t number = 0; number < all.materials.size(); ++number) {
         Material material = all.materials[number];
         if (!scenes::isTransmissive(material)) continue;
-        // What two alphas let pass is that of 24 facets (docs/glass.md). The material that has them is metal to four
-        // fifths, through which nothing passes.
+        // Transmission with two alphas is approximated by 24 microfacets (docs/glass.md). The material that has them is
+        // metal to four fifths, which transmits nothing.
         if (scenes::isAnisotropic(material)) {
             Material clear = material;
             clear.metallic = 0.0f;
@@ -105,7 +105,7 @@ TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
     }
 }
 
-/// Other surfaces of the transparent pass take other code beside it, and the same bits.
+/// Other surfaces of the transparent pass take another code path beside glass, with the same bits.
 TEST_F(Glass, elsewhereInASceneChangesNoBitOfBlendedSurfaces) {
     Material blended;
     blended.baseColor = {0.4f, 0.6f, 0.9f, 0.3f};
@@ -119,7 +119,7 @@ TEST_F(Glass, elsewhereInASceneChangesNoBitOfBlendedSurfaces) {
     EXPECT_EQ(drawn(scene, ofSide(32)), alone);
 }
 
-/// Roughness beside it takes other code, and a mirror the same bits.
+/// Smooth glass takes another code path beside rough glass, with the same bits.
 TEST_F(Glass, roughGlassElsewhereInASceneChangesNoBitOfSmoothGlass) {
     Scene scene = glassUnderSky(clearGlass());
     const std::vector<float> alone = drawn(scene, ofSide(kGlassPixels));
@@ -128,7 +128,7 @@ TEST_F(Glass, roughGlassElsewhereInASceneChangesNoBitOfSmoothGlass) {
     EXPECT_EQ(drawn(scene, ofSide(kGlassPixels)), alone);
 }
 
-/// Bodies that bend all colours alike take other code beside one that does not, and the same bits.
+/// Bodies without dispersion take another code path beside one with it, with the same bits.
 TEST_F(Glass, dispersionElsewhereInASceneChangesNoBit) {
     Scene scene = glassUnderSky(bareGlass(1.5, 0.3));
     const std::vector<float> alone = drawn(scene, ofSide(kGlassPixels));

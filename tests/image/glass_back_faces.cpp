@@ -1,4 +1,4 @@
-// Bodies of glass whose rays leave where they meet the back faces of the mesh: closed forms, and the reference.
+// Glass bodies whose rays leave at the back faces of the mesh: closed forms, and the reference.
 #include "tests/image/GlassBehindTest.h"
 #include "tests/image/GlassTest.h"
 
@@ -14,7 +14,7 @@ using namespace test;
 class GlassBackFaces : public GlassBehindTest {};
 using GlassBackFacesSlow = GlassBackFaces;
 
-/// The scene with a body whose mesh is closed before it.
+/// The scene with a glass body, a closed mesh, in front of it.
 Scene coveredByBody(Scene scene, const Material& glass, scenes::Mesh mesh, double tiltRadians = 0.0) {
     Scene covered = coveredByGlass(std::move(scene), glass, tiltRadians, 1.0);
     covered.nodes.back().instances[0].mesh = int(covered.meshes.size());
@@ -22,7 +22,7 @@ Scene coveredByBody(Scene scene, const Material& glass, scenes::Mesh mesh, doubl
     return covered;
 }
 
-/// By as much as two parallel sides move it that far apart. Where the slab ends is drawn, whatever the thickness says.
+/// The offset of two parallel sides at the distance of the drawn slab, whatever the material's thickness.
 TEST_F(GlassBackFaces, throughTheBackOfASlabIsMovedAsideByTheClosedForm) {
     constexpr int kMoved = 3;
     const frame::FrameSettings settings = seeing(Refraction::BackFaces);
@@ -33,7 +33,7 @@ TEST_F(GlassBackFaces, throughTheBackOfASlabIsMovedAsideByTheClosedForm) {
         scenes::Mesh slab;
         scenes::builtin::appendBox(slab, {-4.0, -4.0, -thickness}, {4.0, 4.0, 0.0});
         Scene covered = coveredByBody(checkedWall(), bareGlass(ior), slab, kBehindTiltRadians);
-        if (isMirrored) covered.nodes.back().parentFromNode[0] *= -1.0; // left and right are alike
+        if (isMirrored) covered.nodes.back().parentFromNode[0] *= -1.0; // the slab is symmetric
         const std::vector<float> shown = drawn(covered, settings);
         if (!bends) {
             EXPECT_EQ(shown, plain);
@@ -49,8 +49,8 @@ TEST_F(GlassBackFaces, throughTheBackOfASlabIsMovedAsideByTheClosedForm) {
     }
 }
 
-/// Where a ray along -z that meets a ball around the origin so far from its axis meets a plane behind it, from that
-/// axis too. The ray turns by the angle to the normal less that inside, twice.
+/// Where a ray along -z at `asideMetres` from the axis of a ball around the origin meets a plane behind it, as a
+/// distance from that axis. The ray turns twice, each time by the angle to the normal outside minus that inside.
 double behindBallMetres(double radiusMetres, double ior, double asideMetres, double planeMetres) {
     const double outside = std::asin(asideMetres / radiusMetres);
     const double inside = std::asin(asideMetres / (radiusMetres * ior)), turn = 2.0 * (outside - inside);
@@ -58,7 +58,7 @@ double behindBallMetres(double radiusMetres, double ior, double asideMetres, dou
     return radiusMetres * std::sin(leavesAt) - std::tan(turn) * (planeMetres - radiusMetres * std::cos(leavesAt));
 }
 
-/// A ball turns left and right round, as the reference finds through the mesh itself, and the closed form says.
+/// A ball swaps left and right, as in the reference through the mesh, and in the closed form.
 TEST_F(GlassBackFaces, throughTheBackOfABallIsTurnedRound) {
     constexpr double kIor = 1.5, kRadiusMetres = 0.7;
     scenes::Mesh ball;
@@ -71,14 +71,14 @@ TEST_F(GlassBackFaces, throughTheBackOfABallIsTurnedRound) {
     int turned = 0;
     for (int y = 0; y < kBehindPixels; ++y)
         for (int x = 0; x < kBehindPixels; ++x) {
-            // Where rays meet the wall within the picture.
+            // Where rays meet the wall within the image.
             const double across = metresOf(x), up = metresOf(y);
             if (std::hypot(across, up) > 0.5) continue;
             for (int c = 0; c < 3; ++c)
                 worst = std::max(worst, std::abs(at(shown, x, y)[c] - at(truth.picture.rgba, x, y)[c]));
             const double aside = std::hypot(across, up);
             const double place = behindBallMetres(kRadiusMetres, kIor, aside, kBehindWallMetres) * across / aside;
-            // The mesh has facets: 2 mm on the wall, of 4 m.
+            // The mesh's triangles move rays by 2 mm on the wall, whose ramp spans 4 m.
             ASSERT_NEAR(at(truth.picture.rgba, x, y).r, evenlyAt(plain, place, y).r, 1e-3) << "at " << x << ", " << y;
             const bool isLeft = at(plain, x, y).r < 0.5, showsLeft = at(shown, x, y).r < 0.5;
             turned += isLeft != showsLeft ? 1 : -1;
@@ -88,10 +88,8 @@ TEST_F(GlassBackFaces, throughTheBackOfABallIsTurnedRound) {
     EXPECT_GT(turned, 300);
 }
 
-/// Where a body's back is met light is absorbed on its way there, whatever thickness the material has: by the cosine
-/// inside of a slab, as long as the chord of a ball.
 /// Rays through the front of a deep box meet its sides, which reflect them, or its back: all cross its depth. A
-/// thickness that is less than the way to the far side takes nothing from it.
+/// material thickness below the distance to the far side has no effect.
 TEST_F(GlassBackFaces, absorbsAlongItsThicknessWhereTheBackReflects) {
     constexpr double kDeepMetres = 0.8, kHalfMetres = 0.3, kTiltRadians = 0.5, kIor = 1.5;
     Material tinted = bareGlass(kIor);
@@ -129,6 +127,8 @@ TEST_F(GlassBackFaces, absorbsAlongItsThicknessWhereTheBackReflects) {
         EXPECT_GT(judged, 100);
     }
 }
+/// Light is absorbed along its way to the back, whatever the material's thickness: by the cosine inside a slab, by the
+/// chord of a ball.
 TEST_F(GlassBackFaces, absorbsAlongTheWayToTheBackThatItsRaysMeet) {
     constexpr double kDeepMetres = 0.4, kRadiusMetres = 0.7;
     Material tinted = bareGlass(2.0);
@@ -149,7 +149,7 @@ TEST_F(GlassBackFaces, absorbsAlongTheWayToTheBackThatItsRaysMeet) {
         const std::vector<float> truth = strictRadiance(scene, settings);
         for (int y = 0; y < kBehindPixels; ++y)
             for (int x = 0; x < kBehindPixels; ++x) {
-                // Farther out rays leave the picture inside the slab, and the ball lets few through.
+                // Further out rays leave the image inside the slab, and the ball transmits little.
                 if (std::hypot(metresOf(x), metresOf(y)) > 0.6) continue;
                 for (int c = 0; c < 3; ++c) {
                     const double way = wayMetres(std::hypot(metresOf(x), metresOf(y)), kIors[c]);
@@ -169,16 +169,16 @@ TEST_F(GlassBackFaces, absorbsAlongTheWayToTheBackThatItsRaysMeet) {
         };
         expectLeft(slab, tiltRadians, wayMetres, 1e-4, 1e-5);
     }
-    // Facets lie up to 0.2 mm inside of the ball on either side, which is 5e-4 of what passes; the renderer's pixels
-    // see them as planes.
+    // The mesh's triangles lie up to 0.2 mm inside of the ball on either side, which is 5e-4 of the transmitted light;
+    // the renderer's pixels treat them as planes.
     const auto chordMetres = [](double asideMetres, double ior) {
         return 2.0 * std::sqrt(kRadiusMetres * kRadiusMetres - asideMetres * asideMetres / (ior * ior));
     };
     expectLeft(ball, 0.0, chordMetres, 4e-3, 1e-3);
 }
 
-/// A wedge that stands on the wall reflects all light in its back, where its own depth and the wall's are the same up
-/// to rounding: nothing of the wall shows, only the background that the reflected rays go to.
+/// A wedge that stands on the wall has total reflection at its back, whose depth equals the wall's up to rounding: the
+/// wall is invisible, and the reflected rays show the background.
 TEST_F(GlassBackFaces, thatStandsOnASurfaceReflectsWhatDoesNotLeaveIt) {
     constexpr double kIor = 2.4, kTiltRadians = 1.05, kHalfMetres = 0.4, kEdgeMetres = 0.1;
     scenes::Mesh wedge;
@@ -206,8 +206,8 @@ TEST_F(GlassBackFaces, thatStandsOnASurfaceReflectsWhatDoesNotLeaveIt) {
     EXPECT_GT(reflected, kBehindPixels);
 }
 
-/// By default rays leave what is closed by its back faces, and what is open goes on without a far side, also where a
-/// closed body stands behind it.
+/// By default rays leave closed meshes by their back faces. Open meshes have no far side, even with a closed body
+/// behind them.
 TEST_F(GlassBackFaces, countByDefaultOfClosedMeshes) {
     scenes::Mesh box;
     scenes::builtin::appendBox(box, {-0.3, -0.3, -0.9}, {0.3, 0.3, -0.4});
@@ -226,7 +226,7 @@ TEST_F(GlassBackFaces, countByDefaultOfClosedMeshes) {
     EXPECT_EQ(shownWith(Refraction::ClosedMeshes), drawn(paneAlone, seeing(Refraction::OneSide)));
 }
 
-/// Where a body ends behind the wall it stands in, its rays meet the wall. One that bends nothing shows the very bits.
+/// Where a body ends behind the wall it stands in, its rays meet the wall. Without refraction no bit differs.
 TEST_F(GlassBackFaces, thatReachesIntoTheWallShowsTheWall) {
     scenes::Mesh box;
     scenes::builtin::appendBox(box, {-0.6, -0.6, -1.5 * kBehindWallMetres}, {0.6, 0.6, 0.0});
@@ -238,8 +238,8 @@ TEST_F(GlassBackFaces, thatReachesIntoTheWallShowsTheWall) {
     for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(truth[i], plain[i], 1e-5) << i;
 }
 
-/// The table, seen flat, changes its depth within a pixel by more than the rays that the base of the prism reflects
-/// rise above it there: they do not meet it. The base shows the light box alone, which is even.
+/// The table, viewed at a grazing angle, changes its depth within a pixel by more than the height of the rays reflected
+/// by the prism's base: they must not meet it. The base shows only the light box, which is uniform.
 TEST_F(GlassBackFaces, thatStandsOnWhatIsSeenFlatReflectsWhatDoesNotLeaveIt) {
     const scenes::Scene scene = scenes::loadScene("glass");
     frame::FrameSettings settings = ofSize(480, 270);
@@ -247,13 +247,13 @@ TEST_F(GlassBackFaces, thatStandsOnWhatIsSeenFlatReflectsWhatDoesNotLeaveIt) {
     settings.shadows.kind = scenes::ShadowRequest::Kind::None;
     const std::vector<float> shown = drawn(scene, settings, Technique::Forward);
     const auto redAt = [&](int x, int y) { return shown[4 * (std::size_t(y) * 480 + std::size_t(x))]; };
-    for (int y = 170; y < 175; ++y) // within the picture of that base
+    for (int y = 170; y < 175; ++y) // within that base
         for (int x = 112; x < 120; ++x)
             EXPECT_NEAR(redAt(x, y), redAt(117, 172), 0.1f * redAt(117, 172)) << x << ", " << y;
 }
 
-/// The base of the prism on the table of the scene glass reflects all light, and the rays that leave it begin at the
-/// depth of the table: held against that of another place of the pixel, one of three pixels there showed the table.
+/// The base of the prism on the table of the scene glass has total reflection, and the rays that leave it begin at the
+/// table's depth. Compared with the depth elsewhere in the pixel, one of three pixels there showed the table.
 TEST_F(GlassBackFacesSlow, severalSamplesShowTheSameWhereABodyStandsOnASurface) {
     const scenes::Scene scene = scenes::loadScene("glass");
     engine::Renderer renderer(context(), scene);
@@ -263,7 +263,7 @@ TEST_F(GlassBackFacesSlow, severalSamplesShowTheSameWhereABodyStandsOnASurface) 
     settings.samples = 4;
     const std::vector<float> four = renderer.render(Technique::Forward, settings).radiance;
     std::size_t others = 0, all = 0;
-    for (int y = 228; y < 234; ++y) // within the picture of that base
+    for (int y = 228; y < 234; ++y) // within that base
         for (int x = 147; x < 163; ++x) {
             const std::size_t red = 4 * (std::size_t(y) * 640 + std::size_t(x));
             others += std::abs(one[red] - four[red]) > 0.1f * one[red] ? 1 : 0;
@@ -272,11 +272,11 @@ TEST_F(GlassBackFacesSlow, severalSamplesShowTheSameWhereABodyStandsOnASurface) 
     EXPECT_EQ(others, 0u) << "of " << all;
 }
 
-/// The thickness that the material of a body states, beside how thick the body is.
+/// The thickness stated by a material, against the actual thickness of a body.
 class GlassThickness : public GlassTest {};
 
-/// Back faces tell how far light goes through a body. What it absorbs per metre stays the same down to a stated
-/// thickness that absorbs less than a rounding of the light.
+/// Back faces determine the path length in a body. Its absorption per metre stays the same down to a stated thickness
+/// that absorbs less than a rounding of the light.
 TEST_F(GlassThickness, countsForNothingWhereBackFacesTellTheWay) {
     constexpr double kDeepMetres = 0.4;
     scenes::Material tinted = bareGlass(1.5);
@@ -296,7 +296,7 @@ TEST_F(GlassThickness, countsForNothingWhereBackFacesTellTheWay) {
         for (std::size_t pixel = 0; pixel < shown.size(); pixel += 4)
             for (std::size_t c = 0; c < 3; ++c) {
                 const double wanted = std::pow(double(tinted.attenuationColor[glm::length_t(c)]), kDeepMetres);
-                // As the slab of GlassBehind: the depth of the far side and the filtered map round.
+                // As for the slab of GlassBehind: rounding of the far side's depth and of the filtered map.
                 ASSERT_NEAR(shown[pixel + c], wanted, 1e-4 * wanted) << thicknessMetres << " m, channel " << c;
             }
     }

@@ -1,5 +1,5 @@
-// What bodies of glass show of what stands behind them: every technique, what shows without them to the last bit, what
-// is left out, and the reference.
+// The refracted background of glass bodies: parity of techniques, bit-exactness without refraction, pruning, and the
+// reference.
 
 #include <gmock/gmock.h>
 
@@ -18,8 +18,8 @@ using namespace test;
 class GlassBehind : public GlassBehindTest {};
 using GlassBehindSlow = GlassBehind;
 
-/// Along rays bent once and moved aside, with levels and without, of one sample and of several. Or of several and not
-/// pruned along one of them each.
+/// Rays refracted once or offset, with blur levels and without, with one sample and with several. In a short sweep,
+/// several samples and unpruned frames use one mode each.
 TEST_SWEEP(GlassBehind, everyTechniqueShowsTheSameAndPruningChangesNoBit) {
     for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides, Refraction::BackFaces}) {
         SCOPED_TRACE(infoOf(refraction).name);
@@ -38,13 +38,13 @@ TEST_SWEEP(GlassBehind, everyTechniqueShowsTheSameAndPruningChangesNoBit) {
             settings.samples = 1;
         }
         if (!isWholeSweep() && refraction != Refraction::BackFaces) continue;
-        scene.materials[1].perceptualRoughness = 0.0f; // so that there are no levels
+        scene.materials[1].perceptualRoughness = 0.0f; // so that there are no blur levels
         engine::Renderer renderer(context(), scene);
         expectPruningIsUnseen(renderer, settings);
     }
 }
 
-/// An index of 1 bends nothing: not a bit differs, of parallel rays and of a lens, of one sample and of several.
+/// An index of 1 does not refract: no bit differs with one sample, and a rounding with several, for both projections.
 TEST_F(GlassBehind, thatBendsNothingShowsExactlyWhatStandsThere) {
     struct Case {
         Refraction refraction;
@@ -64,13 +64,13 @@ TEST_F(GlassBehind, thatBendsNothingShowsExactlyWhatStandsThere) {
         const std::vector<float> shown =
             drawn(coveredByGlass(wall, bareGlass(1.0), kBehindTiltRadians), settings, Technique::Forward);
         ASSERT_EQ(shown.size(), plain.size());
-        // Of several samples each shows the mean of all: their sum may round once more.
+        // With several samples each shows the mean of all: their sum may round once more.
         const float leeway = one.samples == 1 ? 0.0f : 1e-6f;
         for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(shown[i], plain[i], leeway) << i;
     }
 }
 
-/// To the last bit: what is not met changes nothing. With a far side the ray of the viewer goes on.
+/// Surfaces that no ray meets change no bit. With a far side the view ray continues unbent.
 TEST_F(GlassBehind, raysThatMeetNothingShowTheEnvironment) {
     for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled})
         for (const Refraction refraction : {Refraction::OneSide, Refraction::TwoSides}) {
@@ -87,7 +87,7 @@ TEST_F(GlassBehind, raysThatMeetNothingShowTheEnvironment) {
         }
 }
 
-/// They blend what lies straight behind them, as smooth ones do.
+/// They blend the background straight behind them, as smooth ones do.
 TEST_F(GlassBehind, roughSheetsScatterNothingWhereGlassShowsTheEnvironmentAlone) {
     scenes::Material rough = bareGlass(1.5, 0.3);
     rough.thicknessMetres = 0.0f;
@@ -140,7 +140,7 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
     }
 }
 
-/// Nothing opaque is drawn then, and yet there is something to be seen.
+/// No opaque surface is drawn, but a light is visible.
 TEST_F(GlassBehind, showsAreaLightsWhereNothingElseStandsBehindIt) {
     for (const double roughness : {0.0, 0.2}) {
         Scene scene = quadScene(bareGlass(1.5, roughness));
@@ -164,7 +164,7 @@ TEST_F(GlassBehind, showsAreaLightsWhereNothingElseStandsBehindIt) {
     }
 }
 
-/// By the median error of the pixels that bodies fill; docs/glass.md tells which pixels are farther from it.
+/// Compares the median error over pixels of bodies; docs/glass.md names the pixels with larger errors.
 TEST_F(GlassBehindSlow, mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsBehind) {
     const Scene scene = scenes::loadScene("glass");
     engine::Renderer renderer(context(), scene);
@@ -176,7 +176,7 @@ TEST_F(GlassBehindSlow, mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsB
         return renderer.render(Technique::Deferred, settings).radiance;
     };
     const std::vector<float> alone = drawnWith(Refraction::Environment), behind = drawnWith(Refraction::OneSide);
-    // Of each pixel that the two show differently: bodies, and nothing else.
+    // Pixels that differ between the two are those of bodies.
     std::vector<double> errorsAlone, errorsBehind;
     double squaresAlone = 0.0, squaresBehind = 0.0;
     const auto errorAt = [&](const std::vector<float>& shown, std::size_t pixel, double& squares) {

@@ -1,4 +1,4 @@
-// What bodies of glass show of what stands behind them: closed forms of bent rays, and the reference.
+// The refracted background of glass bodies: closed forms of refracted rays, and the reference.
 #include <limits>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -15,7 +15,7 @@ using namespace test;
 
 class GlassBehindTruth : public GlassBehindTest {};
 
-/// Seen straight on, whatever its index: what it reflects is lost, and what its body absorbs.
+/// Viewed straight on, only reflection and absorption dim the background, whatever the index.
 TEST_F(GlassBehindTruth, seenStraightOnShowsWhatItsClosedFormLeaves) {
     Material glass = clearGlass();
     glass.baseColor = {0.9f, 0.7f, 0.5f, 1.0f};
@@ -41,8 +41,8 @@ TEST_F(GlassBehindTruth, seenStraightOnShowsWhatItsClosedFormLeaves) {
         }
 }
 
-/// By a whole number of pixels, so that no texel is interpolated. What is moved in from beyond the picture's edge is
-/// not known: there the body shows the background.
+/// Shifts by a whole number of pixels, so that no texel is interpolated. What would come from beyond the image's edge
+/// is unknown: there the body shows the background.
 TEST_F(GlassBehindTruth, withAFarSideMovesThePictureAsideByTheClosedForm) {
     constexpr int kMoved = 3;
     const frame::FrameSettings settings = seeing(Refraction::TwoSides);
@@ -65,7 +65,7 @@ TEST_F(GlassBehindTruth, withAFarSideMovesThePictureAsideByTheClosedForm) {
     }
 }
 
-/// Half of twice the thickness is the thickness; where none is left nothing is moved.
+/// Half of twice the thickness is the thickness; a thickness of 0 shifts nothing.
 TEST_F(GlassBehindTruth, withAFarSideIsAsThickAsItsTextureSays) {
     const frame::FrameSettings settings = seeing(Refraction::TwoSides);
     const auto shownOf = [&](float thickness, std::optional<float> texel) {
@@ -87,7 +87,7 @@ TEST_F(GlassBehindTruth, withAFarSideIsAsThickAsItsTextureSays) {
     expectAlike(shownOf(0.5f, 0.0f), plain);
 }
 
-/// Rays that bend once meet a wall, upright or leaning, where a plane and a line meet.
+/// Rays refracted once meet a wall, upright or leaning, where a plane and a line meet.
 TEST_F(GlassBehindTruth, bentOnceShowsWhereTheRayMeetsTheWall) {
     constexpr double kIor = 1.5;
     const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
@@ -110,8 +110,7 @@ TEST_F(GlassBehindTruth, bentOnceShowsWhereTheRayMeetsTheWall) {
     }
 }
 
-/// A body that is thicker than the room before the wall: rays meet the wall inside, and not where they would leave the
-/// body behind it.
+/// A body thicker than the distance to the wall: rays meet the wall inside, before they would leave the body behind it.
 TEST_F(GlassBehindTruth, withAFarSideBehindTheWallShowsWhereTheRayMeetsTheWallInside) {
     constexpr double kIor = 1.5;
     const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
@@ -130,13 +129,13 @@ TEST_F(GlassBehindTruth, withAFarSideBehindTheWallShowsWhereTheRayMeetsTheWallIn
     EXPECT_GT(expectPlaces(shown, plain, 0.05, 1e-5, placeOf), kBehindPixels * kBehindPixels / 3);
     SCOPED_TRACE("reference");
     expectPlaces(truth, plain, 0.0, 1e-4, placeOf);
-    // So rough glass spreads what is met inside by its near side alone.
+    // For hits inside the body, only the roughness of its near side blurs.
     deep.perceptualRoughness = 0.4f;
     const Scene rough = coveredByGlass(rampWall(), deep, 0.0);
     EXPECT_EQ(drawn(rough, settings), drawn(rough, seeing(Refraction::OneSide)));
 }
 
-/// Bent once, or moved aside by a far side, seen through a lens, with a far plane and without.
+/// Refracted once, or offset by a far side, with a perspective camera, with a far plane and without.
 TEST_F(GlassBehindTruth, throughALensShowsWhereTheRayMeetsTheWall) {
     constexpr double kIor = 1.5, kThicknessMetres = 0.4, kEyeMetres = 3.0, kFovYRadians = 0.5;
     const double half = std::tan(0.5 * kFovYRadians), wallHalf = half * (kEyeMetres + kBehindWallMetres);
@@ -172,7 +171,7 @@ TEST_F(GlassBehindTruth, throughALensShowsWhereTheRayMeetsTheWall) {
             }
 }
 
-/// A bar before the glass is no obstacle to what goes on behind it.
+/// A bar in front of the glass does not block rays that pass behind it.
 TEST_F(GlassBehindTruth, raysPassBehindWhatStandsBeforeIt) {
     constexpr double kIor = 1.5, kBarMetres = 0.05; // half its width
     const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
@@ -195,12 +194,12 @@ TEST_F(GlassBehindTruth, raysPassBehindWhatStandsBeforeIt) {
     EXPECT_GT(crossing, kBehindPixels);
 }
 
-/// A bar between glass and wall whose left edge comes nearer, so steeply that its depth changes by 0.07 m from pixel to
-/// pixel: a ray that comes from the right and is farther behind its right edge than that allows for goes on to the
-/// wall.
+/// A bar between glass and wall, its left edge nearer, leans so steeply that its depth changes by 0.07 m from pixel to
+/// pixel. A ray from the right continues to the wall if it is farther behind the bar's right edge than the tolerance of
+/// that slope.
 TEST_F(GlassBehindTruth, raysPassBehindTheEdgeOfWhatLeans) {
     constexpr double kIor = 2.4, kLeanRadians = 1.05, kBarMetres = 0.2, kBarZ = -0.3; // half its length
-    // Four pixels and twice a step of the bar's depth, and a pixel more.
+    // Four pixels, twice a step of the bar's depth, and one pixel more.
     const double allowedMetres = (5.0 + 2.0 * std::tan(kLeanRadians)) * kBehindPixelMetres;
     const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
     const Scene wall = rampWall();
@@ -221,13 +220,13 @@ TEST_F(GlassBehindTruth, raysPassBehindTheEdgeOfWhatLeans) {
     EXPECT_GE(passing, kBehindPixels);
 }
 
-/// A bar between glass and wall, whose edge moves aside by a pixel every six rows. Rays that run down and to the left
-/// come to these steps from the side, far behind: they go on to the wall.
+/// A bar between glass and wall whose edge shifts by a pixel every six rows. Rays that run down and to the left reach
+/// these steps from the side, far behind: they continue to the wall.
 TEST_F(GlassBehindTruth, raysPassBehindTheStepsOfAnEdge) {
     constexpr double kIor = 2.4, kBarMetres = 0.06, kBarZ = -0.3, kLean = 1.0 / 6.0; // half its width
     const glm::dvec2 towards(-std::cos(0.9), -std::sin(0.9)); // a little more down than to the left
     const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
-    // Four pixels, and as far as a ray goes back over another one.
+    // Four pixels, and the distance by which a ray recedes over another one.
     const double allowedMetres = (4.0 - 1.0 / (bend * towards.x)) * kBehindPixelMetres;
     const Scene wall = rampWall();
     Scene covered = coveredByGlass(wall, bareGlass(kIor), kBehindTiltRadians);
@@ -253,7 +252,7 @@ TEST_F(GlassBehindTruth, raysPassBehindTheStepsOfAnEdge) {
     EXPECT_GE(passing, 8);
 }
 
-/// Wide levels end where the picture does, within their texels: an even wall shows as it is up to the rim.
+/// Coarse levels end at the image's edge, within their texels: a uniform wall keeps its colour up to the rim.
 TEST_F(GlassBehindTruth, thatIsRoughLosesNoLightAtTheRimOfThePicture) {
     const Scene even = wallScene(uniformImage({200, 100, 50, 255}), 4.0);
     frame::FrameSettings settings = seeing(Refraction::OneSide);
@@ -266,7 +265,7 @@ TEST_F(GlassBehindTruth, thatIsRoughLosesNoLightAtTheRimOfThePicture) {
     }
 }
 
-/// A rough body before an even wall shows just that, before an edge a wider one, as the reference does.
+/// A rough body shows the colour of a uniform wall, and widens an edge as the reference does.
 TEST_F(GlassBehindTruth, thatIsRoughBlursWhatStandsThere) {
     Scene even = wallScene(uniformImage({200, 100, 50, 255}), 4.0);
     const frame::FrameSettings settings = seeing(Refraction::OneSide);
@@ -293,8 +292,8 @@ TEST_F(GlassBehindTruth, thatIsRoughBlursWhatStandsThere) {
     fmt::print("behind rough glass: mean error {:.3f}, {:.3f} if it were smooth\n", blurred, sharp);
     EXPECT_LT(blurred, 0.5 * sharp);
 
-    // Of a GGX lobe (1 + s / sqrt(s^2 + alpha^2)) / 2 lies below a slope s of its half vectors along one direction, and
-    // they turn light by their angle less that inside: from a quarter to three quarters of the light it is so far.
+    // Of a GGX lobe (1 + s / sqrt(s^2 + alpha^2)) / 2 lies below a slope s of its half vectors along one direction.
+    // They turn light by their angle minus that inside. The width spans a quarter to three quarters of the light.
     const double lean = std::atan(kRoughness * kRoughness / std::sqrt(3.0));
     const double wanted = 2.0 * kBehindWallMetres * std::tan(lean - std::asin(std::sin(lean) / kIor));
     const auto widthOf = [&](const std::vector<float>& picture) {
@@ -310,15 +309,15 @@ TEST_F(GlassBehindTruth, thatIsRoughBlursWhatStandsThere) {
         };
         return placeOf(0.75) - placeOf(0.25);
     };
-    // The means of columns, of 48 x 32 samples, place each quarter to 2.6 % of the width; the lobe's cosine takes 2 %
-    // of it.
+    // The means of columns, of 48 x 32 samples, locate each quarter to 2.6 % of the width; the lobe's cosine narrows it
+    // by 2 %.
     EXPECT_NEAR(widthOf(truth.picture.rgba), wanted, 0.13 * wanted);
     EXPECT_NEAR(widthOf(drawn(rough, settings)), wanted, 0.25 * wanted) << "squares between two levels";
 }
 
-/// A sheet has two sides, as a body of two sides that lie a micrometre apart: seen straight on they show the same to
-/// the last bits, in the reference too. At a slant a body bends light once, and a sheet does not: before colours that
-/// change evenly its blur shows those straight behind.
+/// A sheet has two sides, like a body whose sides lie a micrometre apart: viewed straight on they match to 1e-5, in the
+/// reference too. At a slant a body refracts light once, and a sheet does not: in front of colours that are linear, its
+/// blur keeps those straight behind.
 TEST_F(GlassBehindTruth, aRoughSheetSpreadsLightAsTwoSidesDoAndBendsNone) {
     Material body = bareGlass(1.5, 0.3), sheet = body;
     body.thicknessMetres = 1e-6f;
@@ -343,7 +342,7 @@ TEST_F(GlassBehindTruth, aRoughSheetSpreadsLightAsTwoSidesDoAndBendsNone) {
     const std::vector<float> slanted = drawn(coveredByGlass(ramp, sheet, kBehindTiltRadians), settings);
     const std::vector<float> bent = drawn(coveredByGlass(ramp, body, kBehindTiltRadians), settings);
     for (int y = 0; y < kBehindPixels; ++y)
-        for (int x = kBehindPixels / 4; x < 3 * kBehindPixels / 4; ++x) // the blur ends where the picture does
+        for (int x = kBehindPixels / 4; x < 3 * kBehindPixels / 4; ++x) // the blur ends at the image's edge
             for (int c = 0; c < 3; ++c) {
                 ASSERT_NEAR(at(slanted, x, y)[c], at(even, x, y)[c], 2e-3) << "at " << x << ", " << y;
                 if (c == 1) continue;
@@ -351,8 +350,8 @@ TEST_F(GlassBehindTruth, aRoughSheetSpreadsLightAsTwoSidesDoAndBendsNone) {
             }
 }
 
-/// Two panes that bend nothing and reflect nothing before a wall: each pane takes its colour from what passes. The
-/// reference with glass behind glass has both, without it the nearer one alone, as the renderer has.
+/// Two panes without refraction and reflection in front of a wall: each multiplies the transmitted light by its colour.
+/// The reference with glass behind glass has both, without it only the nearer one, as the renderer has.
 TEST_F(GlassBehindTruth, behindGlassIsInTheReferenceAsDeepAsItIsAskedFor) {
     Material near = bareGlass(1.0), far = bareGlass(1.0);
     near.baseColor = {0.5f, 0.75f, 1.0f, 1.0f};

@@ -1,5 +1,5 @@
-// How far rough glass spreads light: a half ball, which light passes once, and a closed ball, which it passes twice,
-// before a sky and before a wall, against Walter's integral.
+// The blur of rough glass against Walter's integral: a half ball, which light passes once, and a closed ball, which it
+// passes twice, in front of a sky and of a wall.
 
 #include "tests/image/GlassBehindTest.h"
 #include "tests/support/Random.h"
@@ -18,10 +18,10 @@ constexpr double kWallHalfMetres = 4.0;
 /// Texels of the wall are as wide as those of the sky, seen from the ball.
 constexpr int kWallTexels = 20;
 
-/// Light along a ray.
+/// Radiance along a ray.
 using LightAlongRay = std::function<double(const glm::dvec3& origin, const glm::dvec3& direction)>;
 
-/// What a facet lets pass of a ray at its cosine; ior is that beyond over that of its own side.
+/// Transmittance of a microfacet for a ray at this cosine; ior is the index beyond over that of the ray's side.
 double passedByFacet(double ior, double cosine) {
     const double angle = std::acos(std::min(cosine, 1.0)), bent = std::asin(std::min(std::sin(angle) / ior, 1.0));
     if (std::sin(angle) >= ior) return 0.0;
@@ -35,8 +35,8 @@ double maskedGgx(double alpha, double cosine) {
     return 2.0 * cosine / (cosine + std::sqrt(alpha * alpha + (1.0 - alpha * alpha) * cosine * cosine));
 }
 
-/// A facet that is seen from `toViewer`, of GGX around z. Source: Heitz 2018, "Sampling the GGX Distribution of Visible
-/// Normals".
+/// Samples a microfacet visible from `toViewer`, of GGX around z. Source: Heitz 2018, "Sampling the GGX Distribution of
+/// Visible Normals".
 glm::dvec3 seenFacet(double alpha, const glm::dvec3& toViewer, double u, double v) {
     const glm::dvec3 stretched = glm::normalize(glm::dvec3(alpha * toViewer.x, alpha * toViewer.y, toViewer.z));
     const double across = std::hypot(stretched.x, stretched.y);
@@ -55,7 +55,7 @@ struct BentByFacet {
     double weight = 0.0; ///< transmitted or reflected fraction of the ray; 0: none
 };
 
-/// By a facet of a rough side: Walter et al. 2007, equations 21 and 40, of facets that are seen.
+/// Refracts by a microfacet of a rough side: Walter et al. 2007, equations 21 and 40, with visible normals.
 BentByFacet bentByFacet(double alpha, double ior, const glm::dvec3& normal, const glm::dvec3& toViewer, double u,
                         double v) {
     const glm::dvec3 right = glm::normalize(
@@ -71,12 +71,12 @@ BentByFacet bentByFacet(double alpha, double ior, const glm::dvec3& normal, cons
     return {*bent, passedByFacet(ior, cosine) * maskedGgx(alpha, -glm::dot(*bent, normal))};
 }
 
-/// Where the viewer's ray ends by two facets: the fraction of it that goes there, and the radiance that it meets.
+/// End of the view ray after two microfacets: its transmitted fraction, and the radiance that it meets.
 struct Path {
     double weight = 0.0, radiance = 0.0;
 };
 
-/// The mean radiance of the paths of evenly spread numbers, four per path, in double precision.
+/// The mean radiance of low-discrepancy paths, four numbers per path, in double precision.
 template <typename PathOf>
 double meanOfPaths(int samples, double begin, const PathOf& pathOf) {
     const auto golden = [&](int i, double step) { return std::fmod(i * step + begin, 1.0); };
@@ -93,7 +93,7 @@ double meanOfPaths(int samples, double begin, const PathOf& pathOf) {
 
 constexpr glm::dvec3 kToViewer(0.0, 0.0, 1.0);
 
-/// Through the front of a ball around the origin, or through front and back.
+/// Mean radiance through the front of a ball around the origin, or through front and back.
 double throughBall(const glm::dvec2& place, double ior, double alpha, bool isClosed, int samples,
                    const LightAlongRay& light) {
     const glm::dvec3 entry(place, std::sqrt(kBallMetres * kBallMetres - glm::dot(place, place)));
@@ -110,7 +110,7 @@ double throughBall(const glm::dvec2& place, double ior, double alpha, bool isClo
     });
 }
 
-/// Through the two sides of a slab across the view.
+/// Mean radiance through the two sides of a slab perpendicular to the view.
 double throughSlab(double ior, double alpha, int samples, const LightAlongRay& light) {
     return meanOfPaths(samples, 0.0, [&](const glm::dvec4& random) -> Path {
         const BentByFacet inside = bentByFacet(alpha, ior, kToViewer, kToViewer, random.x, random.y);
@@ -121,7 +121,7 @@ double throughSlab(double ior, double alpha, int samples, const LightAlongRay& l
     });
 }
 
-/// A mirror direction of `toViewer` by a facet of a rough side.
+/// Mirrors `toViewer` at a microfacet of a rough side.
 BentByFacet mirroredByFacet(double alpha, const glm::dvec3& normal, const glm::dvec3& toViewer, double u, double v) {
     const glm::dvec3 right = glm::normalize(glm::cross(normal, glm::dvec3(0.0, 1.0, 0.0)));
     const glm::dvec3 up = glm::cross(normal, right);
@@ -133,7 +133,7 @@ BentByFacet mirroredByFacet(double alpha, const glm::dvec3& normal, const glm::d
     return {mirrored, cosine > 0.0 ? maskedGgx(alpha, cosine) : 0.0};
 }
 
-/// Through the front of a wedge and off its back, of that inward normal, where it leaves unbent.
+/// Mean radiance through the front of a wedge and off its back, with this inward normal; it leaves unrefracted.
 double offTheBackOfAWedge(double ior, double alpha, const glm::dvec3& inward, int samples, const LightAlongRay& light) {
     return meanOfPaths(samples, 0.0, [&](const glm::dvec4& random) -> Path {
         const BentByFacet inside = bentByFacet(alpha, ior, kToViewer, kToViewer, random.x, random.y);
@@ -143,7 +143,7 @@ double offTheBackOfAWedge(double ior, double alpha, const glm::dvec3& inward, in
     });
 }
 
-constexpr int kCapTexels = 512; ///< of a sky that is bright around one direction, 0.7 degrees each
+constexpr int kCapTexels = 512; ///< of a sky with a bright cap around one direction, 0.7 degrees each
 
 struct CapSky {
     glm::dvec3 towards;
@@ -180,7 +180,7 @@ protected:
         double mean, worst;
         int judged;
     };
-    /// Relative errors of the pixels of the ball that `isJudged`.
+    /// Relative errors of the ball's pixels for which `isJudged` returns true.
     template <typename IsJudged>
     static Found errorOf(const std::vector<float>& shown, int side, double halfHeightMetres, double ior,
                          double roughness, bool isClosed, int samples, const LightAlongRay& light, IsJudged isJudged) {
@@ -199,7 +199,7 @@ protected:
         found.mean /= found.judged;
         return found;
     }
-    /// Mean radiance of a picture of a few pixels in the middle of a scene, along -z.
+    /// Mean radiance of an image of a few pixels in the middle of a scene, along -z.
     double middleOf(Scene scene, Refraction refraction) {
         makeOrthographic(scene.cameras[0], 0.01);
         frame::FrameSettings settings = ofSide(8, EnvironmentLight::Sampled);
@@ -210,7 +210,7 @@ protected:
         for (std::size_t i = 0; i < shown.size(); i += 4) sum += double(shown[i]);
         return 4.0 * sum / double(shown.size());
     }
-    /// The same of the reference.
+    /// The same with the reference renderer.
     static double middleOfReference(Scene scene, Refraction refraction) {
         makeOrthographic(scene.cameras[0], 0.01);
         frame::FrameSettings settings = ofSide(2, EnvironmentLight::Sampled);
@@ -267,7 +267,7 @@ void GlassRough::expectSpreadAsWalters(std::vector<double> iors, int side, int s
                                "the sky by the reference");
                     continue;
                 }
-                // The picture shows 2 m of the wall to either side.
+                // The image shows 2 m of the wall to either side.
                 constexpr double kHalfHeightMetres = 2.0;
                 std::vector<glm::vec4> rows;
                 for (int y = 0; y < kWallTexels; ++y)
@@ -281,7 +281,7 @@ void GlassRough::expectSpreadAsWalters(std::vector<double> iors, int side, int s
                 covered.materials.push_back(bareGlass(ior, roughness));
                 scenes::builtin::appendSphere(covered.meshes.emplace_back(), {}, kBallMetres, 192, 96);
                 covered.nodes.emplace_back().instances.push_back({1, 1});
-                // All of the wall, finer.
+                // The whole wall, at a higher resolution.
                 constexpr int kWholeSide = 320;
                 wall.cameras[0].halfHeightMetres = kWallHalfMetres;
                 frame::FrameSettings wholeSettings = settings;
@@ -301,7 +301,7 @@ void GlassRough::expectSpreadAsWalters(std::vector<double> iors, int side, int s
                                                std::clamp(y, 0, kWholeSide - 1)));
                     });
                 };
-                // Where the middle of the lobe meets what the picture shows, and half a texel around.
+                // Whether the lobe's central ray meets the visible wall, with a margin of a texel (0.4 m).
                 const auto isSeen = [&](const glm::dvec2& place) {
                     const double met = throughBall(place, ior, 1e-4, isClosed, 1,
                                                    [&](const glm::dvec3& origin, const glm::dvec3& way) {
@@ -317,8 +317,8 @@ void GlassRough::expectSpreadAsWalters(std::vector<double> iors, int side, int s
             }
 }
 
-/// A sky that is bright around the ray, as far as half of its lobe reaches: 1 % of the lobe's width changes the image
-/// by 0.4 %. It is 5 % too bright; with two turns added as squares 14 %, with their sum 14 % too dark.
+/// A sky with a bright cap around the ray, half as wide as its lobe: 1 % of the lobe's width changes the image by 0.4
+/// %. The image is 5 % too bright; with two turns added as squares 14 %, with their sum 14 % too dark.
 TEST_F(GlassRough, ofTwoSidesSpreadsAsFarAsWaltersIntegral) {
     struct Case {
         double ior, roughness, radians;
@@ -334,7 +334,7 @@ TEST_F(GlassRough, ofTwoSidesSpreadsAsFarAsWaltersIntegral) {
     }
 }
 
-/// A wedge whose back reflects all light: its facets turn a ray by twice their angle.
+/// A wedge with total reflection at its back: the back's microfacets turn a ray by twice their angle.
 TEST_F(GlassRough, ofABackThatReflectsAllSpreadsAsItsFacetsTurnRays) {
     constexpr double kIor = 1.5, kRoughness = 0.3, kIncidence = 60.0 * std::numbers::pi / 180.0;
     const glm::dvec3 outward(std::sin(kIncidence), 0.0, -std::cos(kIncidence)), ray(0.0, 0.0, -1.0);

@@ -12,7 +12,7 @@ using scenes::Material;
 using scenes::Scene;
 using namespace test;
 
-/// Error of the albedo's fit, 0 to 1 (tests/gpu/shaders/layers.cpp).
+/// Error of the fit of a sheen's albedo, 0 to 1 (tests/gpu/shaders/layers.cpp).
 constexpr double kSheenFit = 0.035;
 
 class GlassSheets : public FlatTest {
@@ -26,7 +26,7 @@ protected:
 
 TEST_F(GlassSheets, showWhatLiesBehindByChannel) {
     Material sheet = clearGlass();
-    sheet.baseColor = {0.5f, 0.8f, 0.2f, 0.25f}; // an opacity that nothing asks for
+    sheet.baseColor = {0.5f, 0.8f, 0.2f, 0.25f}; // this opacity is unused
     sheet.transmission = 0.7f;
     sheet.metallic = 0.25f;
     Scene scene = flatScene(sheet);
@@ -37,10 +37,10 @@ TEST_F(GlassSheets, showWhatLiesBehindByChannel) {
         wanted[c] = double(0.7f) * 0.75 * color * (1.0 - straight) * double(scene.background[c]);
     }
     expectShown(scene, wanted);
-    // Opacity covers where it blends: the rest of what lies behind stays as it is.
+    // With blending, opacity covers: the rest of the background stays as it is.
     scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
     expectShown(scene, 0.25 * wanted + 0.75 * glm::dvec3(scene.background), 0.25f);
-    // A body that nothing bends light into absorbs all the same.
+    // A body without anything to refract absorbs too.
     scene.materials[0].alphaMode = scenes::AlphaMode::Opaque;
     scene.materials[0].thicknessMetres = 0.5f;
     scene.materials[0].attenuationDistanceMetres = 0.25f;
@@ -58,7 +58,7 @@ TEST_F(GlassSheets, almostEdgeOnPassWhatFresnelsFactorLeaves) {
     }
 }
 
-/// Transmission by R, thickness by G; a texel of 0 leaves a body that absorbs nothing.
+/// R scales transmission, G thickness; a texel of 0 gives a body without absorption.
 TEST_F(GlassSheets, areScaledByTheirTextures) {
     using scenes::TextureSlot;
     Material sheet = clearGlass();
@@ -86,7 +86,7 @@ TEST_F(GlassSheets, areScaledByTheirTextures) {
             EXPECT_NEAR(shown[c], expected, 1e-3 * expected + 1e-6) << thickness << ", " << c;
         }
     }
-    // As thick as the material says it leaves less than single precision holds, and where it is thinner a colour.
+    // At full thickness the transmitted light underflows single precision; thinner glass shows a colour.
     sheet.attenuationDistanceMetres = 1.0f / 1024.0f; // 512 times
     for (const float thickness : {1.0f, 1.0f / 128.0f, 1.0f / 512.0f}) {
         const Scene scene = scaled(1.0f, thickness);
@@ -110,7 +110,7 @@ TEST_F(GlassSheets, behindEachOtherMultiply) {
                 glm::dvec3(scene.background) * glm::dvec3(sheet.baseColor) * glm::dvec3(sheet.baseColor) * 0.96 * 0.96);
 }
 
-/// All that is left of light is the highlight: that of a black body with the same reflectance.
+/// Only the highlight reflects light: that of a black body with the same reflectance.
 TEST_F(GlassSheets, reflectLightsAsTheirHighlightDoes) {
     const auto lit = [](const Material& material) {
         Scene scene = underTheSun(material, glm::normalize(glm::dvec3(-0.1, -0.15, -1.0)));
@@ -124,15 +124,15 @@ TEST_F(GlassSheets, reflectLightsAsTheirHighlightDoes) {
     sheet.baseColor = glm::vec4(1.0f);
     sheet.transmission = 1.0f;
     expectShown(lit(sheet), glm::dvec3(highlight));
-    sheet.transmission = 0.25f; // of a matte body three quarters stay
+    sheet.transmission = 0.25f; // three quarters of a matte body remain
     Material matte = sheet;
     matte.transmission = 0.0f;
     const glm::vec4 whole = center(lit(matte));
     expectShown(lit(sheet), glm::mix(glm::dvec3(highlight), glm::dvec3(whole), 0.75));
 }
 
-/// Under even light a black sheet reflects its sheen alone, and transmits the rest. The truth is the integral of the
-/// sheen's lobe; the product has a fit of it.
+/// Under uniform light a black sheet reflects its sheen alone, and transmits the rest. The truth is the integral of the
+/// sheen's lobe; the renderer uses a fit of it.
 TEST_F(GlassSheets, underASheenPassWhatItsLobeDoesNotReflect) {
     double most = 0.0;
     for (const double roughness : {0.3, 0.5, 1.0})
@@ -161,7 +161,7 @@ TEST_F(GlassSheets, underASheenPassWhatItsLobeDoesNotReflect) {
                 }
             albedo *= 2.0 * std::numbers::pi / (kSteps * kSteps);
             const glm::vec4 shown = center(scene);
-            // KHR_materials_sheen: below the sheen all colours lose what its strongest reflects.
+            // KHR_materials_sheen: below the sheen all channels lose the reflection of its strongest one.
             for (int c = 0; c < 3; ++c)
                 EXPECT_NEAR(shown[c] / scene.background[c], 1.0 - double(0.8f) * albedo, kSheenFit)
                     << roughness << ", " << tiltRadians << ", " << c;

@@ -1,4 +1,4 @@
-// Light that bodies and sheets of glass transmit: known answers, and the reference.
+// Transmission of glass bodies and sheets: known answers, and the reference.
 
 #include "tests/image/GlassTest.h"
 #include "validation/reference/Lobes.h"
@@ -14,7 +14,7 @@ using namespace test;
 
 class GlassTruth : public GlassTest {
 protected:
-    /// Under a sky of radiance 1, thin and as a body, by either light: 1 in every pixel that `isJudged`.
+    /// Expects 1 under a sky of radiance 1 in pixels that `isJudged` accepts, thin and as a body, by either method.
     template <typename SceneOf, typename IsJudged>
     void expectEvenLightShown(Material glass, int sidePixels, SceneOf sceneOf, IsJudged isJudged);
 };
@@ -37,19 +37,19 @@ void GlassTruth::expectEvenLightShown(Material glass, int sidePixels, SceneOf sc
         }
 }
 
-/// Whatever it lets through and reflects is the same light.
+/// Transmitted and reflected light are the same light.
 TEST_F(GlassTruth, clearInEvenLightShowsExactlyThatLight) {
     constexpr int kFurnacePixels = 48;
     Material glass = clearGlass();
     glass.clearcoat = 0.5f;
     expectEvenLightShown(glass, kFurnacePixels, ballUnderSky, [](int x, int y) {
         const glm::dvec2 at = 1.02 * (glm::dvec2(2.0 * x + 1.0, 2.0 * y + 1.0) / double(kFurnacePixels) - 1.0);
-        // At its rim interpolated normals turn away from the viewer.
+        // At the rim interpolated normals point away from the viewer.
         return std::abs(glm::length(at) - 1.0) >= 0.03;
     });
 }
 
-/// What a mirror reflects and what passes add up to 1 at any angle. The ball above is seen up to a cosine of 0.24.
+/// Mirror reflection and transmission add up to 1 at any angle. The ball above covers cosines down to 0.24.
 TEST_F(GlassTruth, clearInEvenLightShowsThatLightAtGrazingAnglesToo) {
     constexpr double kLeastCosine = 0.05;
     const auto cosView = [](int x, int y) { return glm::dot(kSteepGlass.normal(), kSteepGlass.toViewer(x, y)); };
@@ -66,9 +66,9 @@ TEST_F(GlassTruth, clearInEvenLightShowsThatLightAtGrazingAnglesToo) {
         [&](int x, int y) { return cosView(x, y) >= kLeastCosine; });
 }
 
-/// What a GGX lobe with height-correlated masking and Schlick's factor reflects of even light, to 5e-5 with one alpha
-/// and to 5e-4 with two, along x and y. Half vectors are drawn by their distribution, whose share above a slope s in
-/// units of alpha is 1 / (s^2 + 1), and more often the steeper: those are few, and reflect most at grazing angles.
+/// Directional albedo of a GGX lobe with height-correlated masking and Schlick's factor, to 5e-5 with one alpha and to
+/// 5e-4 with two, along x and y. Half vectors are sampled by their distribution, whose fraction above a slope s in
+/// units of alpha is 1 / (s^2 + 1), more densely at steep slopes: those are rare, and reflect most at grazing angles.
 double reflectedOfEvenLight(const glm::dvec2& alpha, const glm::dvec3& toViewer, double straight) {
     constexpr int kSteps = 96;
     const auto length = [&](const glm::dvec3& w) { // Heitz 2014, equations 80 and 99
@@ -96,8 +96,8 @@ double reflectedOfEvenLight(double alpha, double cosView, double straight) {
     return reflectedOfEvenLight(glm::dvec2(alpha), {std::sqrt(1.0 - cosView * cosView), 0.0, cosView}, straight);
 }
 
-/// What a lobe reflects and what passes add up to 1 at any angle, up to the noise of samples, which alone see the lobe
-/// itself.
+/// Reflection of a lobe and transmission add up to 1 at any angle, up to sampling noise; only sampled light evaluates
+/// the lobe itself.
 TEST_F(GlassTruth, roughInEvenLightShowsThatLightAtAnyAngle) {
     constexpr double kLeastCosine = 0.05;
     for (const auto& [light, leeway] :
@@ -129,14 +129,14 @@ TEST_F(GlassTruth, roughInEvenLightShowsThatLightAtAnyAngle) {
         }
 }
 
-/// Seen alone, where nothing lights the surface: what passes is all but the integral of the lobe.
+/// Without light on the surface: transmission is 1 minus the integral of the lobe.
 TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
     constexpr double kStraight = 0.04;
     struct Case {
         double roughness, leastCosine, leeway;
     };
-    // The table's error between its places is 2e-4. Below an alpha of 0.01 lobes go over into mirrors, which differ
-    // from them by 7e-3 at the most.
+    // The table's interpolation error is 2e-4. Below an alpha of 0.01 lobes blend into mirrors, which differ from them
+    // by 7e-3 at the most.
     constexpr Case kCases[] = {{0.05, 0.05, 7e-3}, {0.08, 0.05, 7e-3}, {0.2, 0.1, 4e-4},
                                {0.3, 0.1, 4e-4},   {0.5, 0.1, 4e-4},   {1.0, 0.1, 4e-4}};
     Scene scene = kSteepGlass.sceneOf(clearGlass());
@@ -147,7 +147,7 @@ TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
         renderer.materialsChanged();
         const std::vector<float> shown = renderer.render(Technique::Deferred, ofSide(kGlassPixels)).radiance;
         double unlikeMirror = 0.0;
-        for (int y = 0; y < kGlassPixels; ++y) // along which the cosine changes most
+        for (int y = 0; y < kGlassPixels; ++y) // the cosine changes most along y
             for (int x = 0; x < kGlassPixels; x += 6) {
                 const double cosView = glm::dot(kSteepGlass.normal(), kSteepGlass.toViewer(x, y));
                 if (cosView < leastCosine) continue;
@@ -161,10 +161,10 @@ TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
     }
 }
 
-/// The same of a lobe with two alphas, which no table holds: 24 of its facets stand for it.
+/// The same for a lobe with two alphas, which no table holds: 24 of its microfacets approximate it.
 TEST_F(GlassTruth, ofTwoAlphasPassesWhatItsLobeDoesNotReflect) {
     constexpr double kStraight = 0.04, kLeastCosine = 0.05;
-    constexpr double kLeeway = 0.0125; // of alphas and angles at random 24 facets are off by 0.0121
+    constexpr double kLeeway = 0.0125; // for random alphas and angles 24 microfacets are off by 0.0121
     Scene scene = kSteepGlass.sceneOf(clearGlass());
     scene.background = glm::vec3(1.0f);
     engine::Renderer renderer(context(), scene);
@@ -210,7 +210,7 @@ TEST_F(GlassTruth, aBodyShowsTheEnvironmentWhereSnellsLawSays) {
                     const float* const pixel = &shown[std::size_t(4 * (y * kGlassPixels + x))];
                     const glm::dvec3 toViewer = kTiltedGlass.toViewer(x, y);
                     const double cosView = glm::dot(kTiltedGlass.normal(), toViewer);
-                    // Beyond the plane's edge, and where total reflection begins, which steepens what rounding does.
+                    // Excludes the plane's edge, and the onset of total reflection, which amplifies rounding.
                     if (cosView < 0.05 || std::abs(std::sqrt(1.0 - cosView * cosView) - ior) < 1e-3) continue;
                     const std::optional<glm::dvec3> bent = bentDirection(toViewer, ior);
                     // Angles in fp32 are good to 1e-5, and the sky changes by less than 3 per rad.
@@ -232,7 +232,7 @@ TEST_F(GlassTruth, aBodyThatDispersesBendsEachColorByItsOwnIndex) {
     };
     const Body bodies[] = {{1.5, 20.0, {1.4875, 1.5, 1.5125}},
                            {2.0, 5.0, {1.9, 2.0, 2.1}},
-                           {1.5, 0.25, {1.0, 1.5, 2.5}}, // held to 1, as by KHR_materials_dispersion
+                           {1.5, 0.25, {1.0, 1.5, 2.5}}, // clamped to 1, as by KHR_materials_dispersion
                            {0.0, 5.0, {0.0, 0.0, 0.0}}};
     for (const auto& [ior, abbeNumber, wanted] : bodies)
         for (const EnvironmentLight light : {EnvironmentLight::SplitSum, EnvironmentLight::Sampled}) {
@@ -255,10 +255,10 @@ TEST_F(GlassTruth, aBodyThatDispersesBendsEachColorByItsOwnIndex) {
         }
 }
 
-/// Roughness blurs what glass transmits by its index of refraction: not at all at 1. The reference integrates Walter's
-/// lobe; the closed form ignores that lobes lean aside at grazing angles. Of roughness 0.6 that darkens bodies of index
+/// Roughness blurs transmitted light by the index of refraction: not at all at 1. The reference integrates Walter's
+/// lobe; the closed form ignores that lobes lean aside at grazing angles. At roughness 0.6 that darkens bodies of index
 /// 2 by 4.0 % and sheets by 4.5 %, brightens bodies of index 1.25 by 2.3 %, and puts single pixels at grazing angles
-/// off by 0.17 in bodies and 0.51 in sheets, before a sky of 0.1 to 1.9 (docs/glass.md).
+/// off by 0.17 in bodies and 0.51 in sheets, under a sky of 0.1 to 1.9 (docs/glass.md).
 TEST_SWEEP(GlassTruth, thatIsRoughAgreesWithTheReference) {
     struct Case {
         double ior;
@@ -302,11 +302,11 @@ TEST_SWEEP(GlassTruth, thatIsRoughAgreesWithTheReference) {
             fmt::print("{} of index {}, roughness {}, {}: sum {:+.2f} %, worst pixel {:.3f}\n",
                        isSheet ? "sheet" : "body", ior, roughness, infoOf(light).name, 100.0 * (own / other - 1.0),
                        worst);
-            // At index 0 all pixels look one way, so that the rounding of the filtered map's texels there, 3.3 %, does
-            // not average out.
+            // At index 0 all pixels refract to one direction, so that the rounding of the filtered map's texels there,
+            // 3.3 %, does not average out.
             const bool isFar = isSheet || ior == 0.0 || (ior == 2.0 && roughness == 0.6);
             EXPECT_NEAR(own, other, (isFar ? 0.05 : 0.025) * other) << infoOf(light).name;
-            EXPECT_LE(worst, isSheet ? 0.52 : 0.17) << infoOf(light).name; // noise of both; levels between alphas
+            EXPECT_LE(worst, isSheet ? 0.52 : 0.17) << infoOf(light).name; // noise of both; interpolated levels
         }
     }
 }

@@ -1,4 +1,4 @@
-// Hooks of surfaces: every technique, what they change and what they do not, and the reference.
+// Surface hooks: parity of techniques, what they change and what they keep, and the reference.
 #include <chrono>
 #include <filesystem>
 
@@ -16,7 +16,7 @@ using engine::Technique;
 using testing::AllOf, testing::HasSubstr, testing::Not, testing::ThrowsMessage;
 using namespace test;
 
-/// Reads all there is to read, and changes all there is to change.
+/// Reads all inputs, and changes all outputs.
 constexpr std::string_view kTint = R"({
     float wave = 0.5 + 0.5 * sin(hook.timeSeconds + 3.0 * inputs.positionOS.x + float(inputs.instance));
     surface.color = mix(surface.color, vec3(inputs.uv.x - floor(inputs.uv.x), wave, 2.0), hook.strength);
@@ -28,7 +28,7 @@ constexpr std::string_view kTint = R"({
 
 class Hooks : public HookTest {
 protected:
-    /// Gives the hook's file another body, an hour later.
+    /// Replaces the body in the hook's file, with a modification time an hour later.
     void rewrite(const scenes::Scene& scene, std::string_view body) {
         const std::filesystem::path file = scene.hook->file;
         const auto time = std::filesystem::last_write_time(file) + std::chrono::hours(1);
@@ -54,8 +54,8 @@ TEST_SWEEP(Hooks, oneThatChangesNothingChangesNoBit) {
     }
 }
 
-/// Of a scene of everything and, unpruned, an even one with every technique. Or of metal and the even one with one
-/// in turn; timeAndParametersChangeThePictureAndCompileNothing draws unpruned hooks.
+/// A scene of everything and, unpruned, one of uniform materials with every technique. In a short sweep metal and the
+/// latter with one in turn; timeAndParametersChangeThePictureAndCompileNothing draws unpruned hooks.
 TEST_SWEEP(Hooks, everyTechniqueDrawsWhatTheyChangeAlike) {
     struct Case {
         scenes::Scene scene;
@@ -92,7 +92,7 @@ TEST_F(Hooks, timeAndParametersChangeThePictureAndCompileNothing) {
     scenes::Scene scene = hooked(everythingScene(), kTint);
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings = smallSettings();
-    settings.prune = false; // else which of the moving lights reach what is in view decides on programs too
+    settings.prune = false; // else programs also depend on which of the moving lights reach visible surfaces
     const std::vector<float> first = renderer.render(Technique::Deferred, settings).radiance;
     const std::size_t programs = renderer.programs().size();
     settings.timeSeconds = 1.0;
@@ -131,7 +131,7 @@ TEST_F(Hooks, whatTheyGiveIsKeptWithinWhatASurfaceMayBe) {
     }
 }
 
-/// What is beyond a bound draws the very picture of a material at that bound; so does NaN at the least.
+/// A value beyond a bound draws the image of a material at that bound; NaN that of the lower bound.
 TEST_F(Hooks, whatIsBeyondABoundIsDrawnAsTheBound) {
     using scenes::Material;
     struct Case {
@@ -164,7 +164,7 @@ TEST_F(Hooks, whatIsBeyondABoundIsDrawnAsTheBound) {
     }
 }
 
-/// Whatever else a program holds, and the reference's too.
+/// In the renderer's programs and in the reference's.
 TEST_F(Hooks, theProgramsOwnNamesAreUnknownToThem) {
     for (const char* reached : {"float(view.sizePixels.x)", "texture(baseColorTexture, inputs.uv).x", "kPi",
                                 "float(hookPointRows.length())", "float(MATERIAL_FLAG_HOOKED)"}) {
@@ -176,7 +176,7 @@ TEST_F(Hooks, theProgramsOwnNamesAreUnknownToThem) {
         engine::Renderer renderer(context(), scene);
         EXPECT_THAT([&] { validation::referencePicture(renderer, smallSettings()); }, isRefused) << reached;
     }
-    // A name of the program is as good as another.
+    // Hooks may reuse names of the program.
     const scenes::Scene own = hooked(quadScene({}), "{\n    float view = 0.25, kPi = view;\n"
                                                     "    surface.color.r = kPi;\n}\n");
     EXPECT_EQ(drawn(own, smallSettings()),
@@ -250,7 +250,7 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     ASSERT_FALSE(faults.empty());
     EXPECT_THAT(faults.front().text, HasSubstr(scene.hook->file + ":2: error"));
     EXPECT_EQ(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
-    rewrite(scene, "{ discard; }\n"); // which a driver takes
+    rewrite(scene, "{ discard; }\n"); // which drivers accept
     const std::vector<shader::ShaderFault> holes = renderer.programs().reload().faults;
     ASSERT_FALSE(holes.empty());
     EXPECT_THAT(holes.front().text, HasSubstr(scene.hook->file + ":2: discard: a hook makes no holes"));
@@ -260,7 +260,7 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
     EXPECT_NE(renderer.render(Technique::Deferred, smallSettings()).radiance, before);
 }
 
-/// What enters a surface is kept, but not for a colour that the hook gave before it was edited.
+/// Entering light is cached, but not across an edit of the hook's colour.
 TEST_F(Hooks, anEditShowsInLightThatHasSpread) {
     scenes::Material skin = lambert();
     skin.subsurface.method = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
@@ -279,7 +279,7 @@ TEST_F(Hooks, anEditShowsInLightThatHasSpread) {
     EXPECT_EQ(after, drawn(hooked(lit, kRed), smallSettings())) << "as a renderer that knows no other";
 }
 
-/// Without steps, whose pixels rounding would decide.
+/// Without discontinuities, whose pixels would depend on rounding.
 constexpr std::string_view kSmooth = R"({
     float wave = 0.5 + 0.5 * sin(hook.timeSeconds + 3.0 * inputs.positionOS.x + 2.0 * inputs.uv.y +
                                  float(inputs.instance));
@@ -300,7 +300,7 @@ protected:
         request.settings = smallSettings();
         request.settings.timeSeconds = timeSeconds;
         request.settings.filter = frame::TextureFilter::Exact;
-        request.settings.refraction = frame::Refraction::Environment; // what else glass shows hangs on the picture
+        request.settings.refraction = frame::Refraction::Environment; // other modes depend on the image
         request.hardwareFilter = false;
         const auto pairs = validation::compareTechniques(renderer, context().capabilities(), request).record.pairs;
         ASSERT_EQ(pairs.size(), 1u);

@@ -24,8 +24,8 @@ protected:
     }
 };
 
-/// Every built-in scene with every technique and layout, or those for sweeps with `deferred`, small and in `exact`:
-/// what is not pruned is the same program for all, and is compiled once.
+/// Every built-in scene with every technique and layout. In a short sweep fewer with `deferred`, small and in `exact`:
+/// unpruned programs are the same for all, and are compiled once.
 TEST_SWEEP_AS(Invariance, pruningNeverChangesABitOfAnyBuiltinScene, InvarianceSlow,
               pruningNeverChangesABitOfAnyBuiltinSceneWithAnyLayout) {
     for (const scenes::BuiltinScene& builtin : builtinsForSweep()) {
@@ -34,7 +34,7 @@ TEST_SWEEP_AS(Invariance, pruningNeverChangesABitOfAnyBuiltinScene, InvarianceSl
         const auto drawn = [&](Technique technique, const frame::FrameSettings& settings) {
             return engine::toPicture(renderer.render(technique, settings));
         };
-        // pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe draws with `forward`.
+        // pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe covers `forward`.
         std::vector<Technique> techniques{Technique::Deferred};
         if (isWholeSweep()) {
             techniques = techniquesInTurn(0);
@@ -57,11 +57,11 @@ TEST_SWEEP_AS(Invariance, pruningNeverChangesABitOfAnyBuiltinScene, InvarianceSl
     }
 }
 
-/// Of each material alone with two techniques, every layout in turn. Or of a few with `forward`, which stores
-/// nothing, and of one with many layers with `deferred` in a coarse layout.
+/// Each material alone with two techniques, layouts in turn. In a short sweep a few with `forward`, which has no
+/// G-buffer, and one with many layers with `deferred` in a coarse layout.
 TEST_SWEEP(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
     constexpr Technique kBoth[] = {Technique::Forward, Technique::Deferred};
-    // Unless the sweep is a whole one: wrapped light, a mask, two widths of a lobe, and a coat.
+    // In a short sweep: wrapped light, a mask, two widths of a lobe, and a coat.
     constexpr std::size_t kAlone[] = {2, 5, 8, 11};
     const scenes::Scene everything = everythingScene();
     const std::span<const frame::LayoutInfo> layouts = frame::layoutTable();
@@ -85,7 +85,7 @@ TEST_SWEEP(Invariance, pruningNeverChangesABitWhereEverySurfaceHasTheSameLobe) {
 }
 
 /// Every built-in scene with two techniques and every layout, or the head of skin, small and in `exact`: it has few
-/// features, so that most of what is added to it is new to it.
+/// features, so that most additions are new to it.
 TEST_SWEEP_AS(Invariance, unusedElementsChangeNeitherPictureNorPlan, InvarianceSlow,
               whatNothingDrawsNeverChangesABitOrThePlanOfAnyBuiltinSceneWithAnyLayout) {
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
@@ -114,15 +114,15 @@ TEST_SWEEP_AS(Invariance, unusedElementsChangeNeitherPictureNorPlan, InvarianceS
     }
 }
 
-/// Pixels that hold the number of their material instead of its values.
-/// With every other technique, two filters and three views, or the picture with one technique and filter.
+/// Pixels that store a material index instead of material values.
+/// With every other technique, two filters and three views, or the final image with one technique and filter.
 TEST_SWEEP(Invariance, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfForward) {
     const scenes::Scene scene = evenScene();
     engine::Renderer renderer(context(), scene);
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         for (const frame::DebugView view :
              {frame::DebugView::Final, frame::DebugView::Diffuse, frame::DebugView::Distribution}) {
-            // Filters read textures, which debug views of one term use as the picture does.
+            // Filters affect texture reads, which debug views of one term share with the final image.
             if (filter == frame::TextureFilter::Exact && view != frame::DebugView::Final) continue;
             if (!isWholeSweep() && (filter != frame::TextureFilter::Hardware || view != frame::DebugView::Final))
                 continue;
@@ -145,7 +145,7 @@ TEST_SWEEP(Invariance, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfFo
             }
         }
     }
-    // The comparison means nothing unless one of them stores materials and the other does not.
+    // The comparison means nothing unless one stores a material index and the other does not.
     const auto bytes = [&](bool prune) {
         frame::FrameSettings settings = small();
         settings.prune = prune;
@@ -160,7 +160,7 @@ TEST_SWEEP(Invariance, materialsReadByTheirNumberGiveEveryBitOfStoredOnesAndOfFo
 TEST_F(Invariance, plansNameWhatThreeDifferentScenesLeaveOut) {
     const auto left = [](const char* name) {
         const scenes::Scene scene = scenes::loadScene(name);
-        std::string all = "\n"; // so that a whole line can be looked for
+        std::string all = "\n"; // so that whole lines can be searched
         for (const graph::Plan::LeftOut& item : engine::planFrame(scene, Technique::Deferred, small()).leftOut) {
             EXPECT_FALSE(item.why.empty());
             all += item.what + " (" + item.why + ")\n";
@@ -192,19 +192,19 @@ TEST_SWEEP(Invariance, picturesAreBitIdenticalFromRunToRun) {
     }
 }
 
-/// A scene of everything with each technique and every built-in scene with one in turn, or with one technique each
-/// and the head alone.
+/// A scene of everything with each technique and every built-in scene with one in turn, or it and the head with one
+/// technique each.
 TEST_SWEEP_AS(Invariance, worldAndViewSpaceLightingAgree, InvarianceSlow,
               worldAndViewSpaceLightingAgreeInEveryBuiltinScene) {
     std::vector<scenes::Scene> all{everythingScene()};
-    // Not the scanned head: where hardware filtering changes from one level of its fine maps to the next is up to the
-    // last bit of the positions.
+    // Not the scanned head: mip selection in its fine maps by hardware filtering depends on the last bit of the
+    // positions.
     scenes::LoadOptions options;
     options.useAssets = false;
     constexpr std::size_t kHead = 6;
     for (const scenes::BuiltinScene& builtin : inTurn(scenes::builtinScenes(), kHead))
         all.push_back(builtinForSweep(builtin, options));
-    // Whose pictures are bit-equal, or sum lights in another order: one of them a scene, in turn.
+    // Techniques with bit-equal images, and some that sum lights in another order; one per scene, in turn.
     constexpr Technique kJudged[] = {Technique::Forward, Technique::Deferred, Technique::DeferredVolumes,
                                      Technique::TiledDeferred, Technique::ClusteredForward};
     std::size_t turn = 0;
@@ -213,8 +213,8 @@ TEST_SWEEP_AS(Invariance, worldAndViewSpaceLightingAgree, InvarianceSlow,
         const bool takesEach = isWholeSweep() && &scene == &all.front();
         for (const Technique technique : std::span(kJudged).subspan(takesEach ? 0 : turn++ % 5, takesEach ? 5 : 1)) {
             frame::FrameSettings settings = small();
-            // A pixel at an outline is lit or not by the last bit of its position;
-            // ShadowMapsTest.tracedOnesAreAsRightInViewSpace judges shadows.
+            // Shadow outlines depend on the last bit of a position; ShadowMapsTest.tracedOnesAreAsRightInViewSpace
+            // judges shadows.
             settings.shadows = {scenes::ShadowRequest::Kind::None};
             const Picture world = engine::toPicture(renderer.render(technique, settings));
             settings.space = frame::LightingSpace::View;

@@ -13,7 +13,7 @@ using scenes::Material;
 using scenes::Scene;
 using namespace test;
 
-/// Black below its reflection.
+/// A film on a dielectric without diffuse reflection.
 Material filmOnGlass(float thicknessNm, float ior = 1.3f, float roughness = 0.0f) {
     Material material = blackDielectric(roughness);
     material.name = "film on glass";
@@ -32,7 +32,7 @@ Material filmOnMetal(float thicknessNm, float ior = 1.8f, float roughness = 0.0f
 
 class FlatFilms : public FlatTest {
 protected:
-    /// What a mirror shows of even light, seen straight on or at an angle.
+    /// Reflection of uniform light by a mirror, viewed straight on or at an angle.
     glm::vec4 shown(const Material& material, double cosView = 1.0) {
         Scene scene = flatScene(material);
         scene.environment = evenEnvironment(1.0);
@@ -41,7 +41,7 @@ protected:
     }
 };
 
-/// The eye's sensitivities no longer see waves there; both sides' light adds up.
+/// The eye's sensitivities average out interference there; the light of both sides adds up.
 TEST_F(FlatFilms, tooThickToInterfereReflectWhatBothSidesDo) {
     for (const float ior : {1.3f, 1.8f})
         for (const Material& material : {filmOnGlass(2e4f, ior), filmOnMetal(2e4f, ior)}) {
@@ -68,8 +68,8 @@ TEST_F(FlatFilms, aQuarterOfAWaveTakesTheReflectionFromGlass) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown(half)[c], 0.5f * (0.04f + coated[c]), 1e-5f) << "half of it";
 }
 
-/// There Schlick's curve leads from the reflectance that it has at a cosine of 0.1, and from none where that would be
-/// less: of red the film itself would show 0.005 more at 0.05, of blue 0.06 less at 0.1.
+/// Below a cosine of 0.1, Schlick's curve through the reflectance at 0.1 replaces the film, with an F0 of at least 0:
+/// the film itself would show 0.005 more red at 0.05, and 0.06 less blue at 0.1.
 TEST_F(FlatFilms, nearTheHorizonAreThoseAtACosineOfATenth) {
     const Material film = filmOnGlass(400.0f);
     const auto risen = [](double straight, double cosView) {
@@ -84,15 +84,15 @@ TEST_F(FlatFilms, nearTheHorizonAreThoseAtACosineOfATenth) {
     EXPECT_NEAR(nearer.b, risen(0.0, 0.05), 1e-3);
 }
 
-/// A thousandth of a wave thick it is not there: glass of index 1.5 reflects 0.04 below whatever film, also where the
-/// film's index comes close to its own from above, so that light keeps its phase at their border.
+/// A film of a thousandth of a wavelength has no effect: glass of index 1.5 reflects 0.04 below any film, also where
+/// the film's index approaches its index from above, so that light keeps its phase at their border.
 TEST_F(FlatFilms, muchThinnerThanAWaveAreNotSeen) {
     for (const float ior : {1.2f, 1.45f, 1.4997f, 1.5003f, 1.505f, 1.55f, 1.62f, 1.9f})
         EXPECT_NEAR(shown(filmOnGlass(0.1f, ior)).g, 0.04f, 2e-5f) << ior;
 }
 
-/// What a film too thick to interfere reflects at a cosine of 0.1, by Schlick's factor at either side: there the film
-/// itself is shown, as everywhere farther from the horizon.
+/// Reflectance at a cosine of 0.1 and above of a film too thick to interfere, by Schlick's factor at either side: down
+/// to there the film itself is evaluated.
 TEST_F(FlatFilms, areShownThemselvesUpToACosineOfATenth) {
     const auto schlick = [](double straight, double cosine) {
         return straight + (1.0 - straight) * std::pow(1.0 - cosine, 5.0);
@@ -113,7 +113,7 @@ TEST_F(FlatFilms, areShownThemselvesUpToACosineOfATenth) {
         }
 }
 
-/// A film of no thickness, or with the index of air, is none.
+/// A film of no thickness, or with the index of air, has no effect.
 TEST_F(FlatFilms, thatAreNoneChangeNothing) {
     Material bare = filmOnMetal(400.0f);
     bare.iridescence = 0.0f;
@@ -123,7 +123,7 @@ TEST_F(FlatFilms, thatAreNoneChangeNothing) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(air[c], wanted[c], 1e-5f);
 }
 
-/// The share by R, the thickness from the least to that of the material by G.
+/// R scales the film's fraction, G its thickness from the least to that of the material.
 TEST_F(FlatFilms, haveTheShareAndTheThicknessThatTexturesSay) {
     using scenes::TextureSlot;
     Material film = filmOnMetal(500.0f, 1.5f);
@@ -153,7 +153,7 @@ TEST_F(FlatFilms, haveTheShareAndTheThicknessThatTexturesSay) {
     expectBare(textured(film, 0.0f, 1.0f));
     film.iridescenceLeastThicknessNm = 0.0f;
     expectBare(textured(film, 1.0f, 0.0f)); // no thickness
-    // The other way round, with a film where the texture is dark alone.
+    // Inverted: a film only where the texture is dark.
     film.iridescenceThicknessNm = 0.0f;
     film.iridescenceLeastThicknessNm = 300.0f;
     partly.iridescence = 0.8f;
@@ -164,10 +164,10 @@ TEST_F(FlatFilms, haveTheShareAndTheThicknessThatTexturesSay) {
 
 class Films : public EnvironmentTest {
 protected:
-    /// Of a ball that fills the picture, without its rim: its pixels, and those that differ from the reference.
+    /// Counts over a ball that fills the image, without its rim: its pixels, and those that differ from the reference.
     struct Judged {
         int pixels = 0, wrong = 0;
-        double colorful = 0.0; ///< the most that two channels are apart
+        double colorful = 0.0; ///< the largest difference of red and blue
     };
     Judged judged(const Scene& scene) {
         constexpr int kBallPixels = 48;
@@ -193,14 +193,14 @@ protected:
     }
 };
 
-/// Mirrors in even light show what a film reflects at each angle.
+/// Mirrors under uniform light show a film's reflection at each angle.
 TEST_SWEEP(Films, ofMirrorsAgreeWithTheReferenceAtEveryAngle) {
     Material transparentBelow = filmOnGlass(550.0f, 1.5f);
     transparentBelow.specularFactor = 0.5f;
     transparentBelow.ior = 2.0f;
     Material partly = filmOnMetal(350.0f, 1.4f);
     partly.iridescence = 0.6f;
-    // That of the glass itself is reflected at its inner side at an angle alone, by Schlick's factor.
+    // A film with the index of the glass reflects at its inner side only at an angle, by Schlick's factor.
     const std::vector<Material> all{filmOnGlass(300.0f),
                                     filmOnGlass(400.0f, 1.5f),
                                     filmOnGlass(600.0f, 1.9f),
@@ -220,7 +220,7 @@ TEST_SWEEP(Films, ofMirrorsAgreeWithTheReferenceAtEveryAngle) {
     }
 }
 
-/// Highlights, and what the film leaves for the body below.
+/// Highlights, and the light that the film transmits to the body below.
 TEST_F(Films, underLightsAgreeWithTheReference) {
     Material matte = filmOnGlass(350.0f, 1.7f, 0.5f);
     matte.baseColor = {0.8f, 0.4f, 0.2f, 1.0f};
@@ -242,7 +242,7 @@ TEST_F(Films, underLightsAgreeWithTheReference) {
     }
 }
 
-/// A texture with other values in every channel and place.
+/// A texture with different values in every channel and texel.
 TEST_F(Films, withTexturesAgreeWithTheReference) {
     Material film = filmOnMetal(600.0f, 1.6f);
     film.iridescenceLeastThicknessNm = 200.0f;
@@ -261,7 +261,7 @@ TEST_F(Films, withTexturesAgreeWithTheReference) {
     EXPECT_GT(found.colorful, 0.01);
 }
 
-/// Each colour that a film does not reflect passes.
+/// The light of each channel that a film does not reflect is transmitted.
 TEST_F(Films, onClearGlassInEvenLightShowExactlyThatLight) {
     constexpr int kFurnacePixels = 32;
     frame::FrameSettings settings = ofSize(kFurnacePixels, kFurnacePixels);
@@ -280,7 +280,7 @@ TEST_F(Films, onClearGlassInEvenLightShowExactlyThatLight) {
         }
 }
 
-/// Films among all other materials, or on metal, a mask and panes of glass alone.
+/// Films among all other materials, or only on metal, a mask and panes of glass.
 Scene sceneWithFilms() {
     Scene scene = isWholeSweep() ? everythingScene() : metalScene();
     for (const std::size_t material : {3u, 4u, 5u, 6u, 11u}) {
@@ -293,7 +293,7 @@ Scene sceneWithFilms() {
     return scene;
 }
 
-/// Every technique, or `deferred`, which is drawn anyway.
+/// Every technique, or only `deferred`, which is drawn anyway.
 TEST_SWEEP(Films, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
     frame::FrameSettings settings = ofSize(96, 54);
     const Scene scene = sceneWithFilms();
@@ -305,7 +305,7 @@ TEST_SWEEP(Films, everyTechniqueGivesTheSamePictureAndPruningChangesNoBit) {
     expectPruningIsUnseen(renderer, settings);
 }
 
-/// Other surfaces take other code beside one, and the same bits.
+/// Other surfaces take another code path beside one, with the same bits.
 TEST_F(Films, elsewhereInASceneChangeNoBit) {
     Material plain;
     plain.metallic = 0.3f;

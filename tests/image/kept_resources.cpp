@@ -1,4 +1,4 @@
-// A frame that keeps a resource of its graph to the end draws the same picture, and holds what the plan names.
+// Keeping a resource of the frame graph to the end changes no pixel, and returns the resource that the plan describes.
 #include <gmock/gmock.h>
 
 #include "renderer/graph/Plan.h"
@@ -25,7 +25,7 @@ protected:
             const engine::RenderedFrame drawn = renderer.render(technique, settings);
             EXPECT_TRUE(drawn.radiance == truth.radiance && drawn.display == truth.display);
             const std::optional<engine::KeptResource> kept = renderer.keptResource();
-            if (!kept) { // shadow maps are drawn already
+            if (!kept) { // shadow maps are already drawn
                 EXPECT_TRUE(resource.name.starts_with("shadow_draw"));
                 continue;
             }

@@ -11,15 +11,15 @@ using scenes::MaterialModel;
 using namespace test;
 
 constexpr int kAnswerSidePixels = 96;
-/// The specification's bar for the sharpest highlight it names, alpha = 0.002: rounding multiplied by 1/alpha.
+/// The specification's limit for the sharpest highlight it names, alpha = 0.002: rounding multiplied by 1/alpha.
 constexpr double kAnyDriver = 3e-4;
 
 struct Errors {
-    double worst = 0.0; ///< relative, of every pixel and channel
+    double worst = 0.0; ///< the largest relative error of all pixels and channels
     double brightest = 0.0;
 };
 
-/// Quads head on whose every pixel is computed a second time in double precision.
+/// Quads viewed head on, with every pixel computed a second time in double precision.
 class KnownAnswers : public ImageTest {
 protected:
     Errors errors(const Material& material, const Light& light, Technique technique) {
@@ -51,8 +51,8 @@ protected:
         if (channels.empty()) return result;
         std::ranges::sort(channels);
         result.brightest = channels.back();
-        // Where a window or cone lets almost nothing through, fp32 has no relative precision left; there a thousandth
-        // of the picture's median is the unit (the measure of every comparison).
+        // Where a window or cone lets almost nothing through, fp32 has no relative precision left. There errors are
+        // relative to a thousandth of the image's median, as in every comparison.
         const double floor = 1e-3 * channels[channels.size() / 2];
         for (std::size_t i = 0; i < truths.size(); ++i)
             for (int c = 0; c < 3; ++c) {
@@ -62,8 +62,8 @@ protected:
         return result;
     }
 
-    /// `tolerance` is for software rasterisers, which round every operation correctly; GLSL leaves 2.5 roundings to a
-    /// division and more to a square root (4.7.1), so others have the specification's bar.
+    /// `tolerance` is for software rasterisers, which round every operation correctly. GLSL allows 2.5 roundings for a
+    /// division and more for a square root (4.7.1), so others have the specification's limit.
     void expectAnswer(const char* what, const Material& material, const Light& light, double tolerance) {
         if (!context().capabilities().isSoftware) tolerance = std::max(tolerance, kAnyDriver);
         const std::size_t turn = answers_++;
@@ -82,7 +82,7 @@ protected:
     }
 
 private:
-    std::size_t answers_ = 0; ///< that were expected
+    std::size_t answers_ = 0; ///< answers so far
 };
 
 Material coloured() {
@@ -161,7 +161,7 @@ double highlightOf(float exponent) {
 
 TEST_SWEEP(KnownAnswers, microfacetHighlightsAreTheTextbooks) {
     Light sun = everyLight().back().light;
-    sun.directionWS = glm::normalize(glm::dvec3(0.05, -0.08, -1.0)); // its reflection is in the picture
+    sun.directionWS = glm::normalize(glm::dvec3(0.05, -0.08, -1.0)); // its reflection is in the image
     for (const float alpha : {0.01f, 0.05f, 0.3f, 1.0f})
         for (const float ior : {1.05f, 1.5f, 2.4f}) {
             Material material = materialOf(MaterialModel::Microfacet, {0.2f, 0.1f, 0.05f, 1.0f});
@@ -180,7 +180,7 @@ TEST_SWEEP(KnownAnswers, totalInternalReflectionIsTheTextbooks) {
     material.alpha = 0.4f;
     material.ior = 0.6f;
     // Grazing, so that part of the quad lies beyond the critical angle of 37 degrees, where F rises as a square root:
-    // 1e-4 is what it makes of a rounding at the quad's nearest pixel. Measured 3.3e-5.
+    // that amplifies a rounding at the quad's nearest pixel to 1e-4. Measured 3.3e-5.
     expectAnswer("microfacet ior 0.6", material, pointLight({1.5, 0.4, 0.5}, 2.0f), 1e-4);
 }
 
@@ -232,7 +232,7 @@ TEST_SWEEP(KnownAnswers, layersOfMetallicRoughnessAreTheExtensions) {
     coated.clearcoat = 0.8f;
     coated.clearcoatPerceptualRoughness = 0.3f;
     expectAnswer("clearcoat over anisotropy", coated, light, highlight(0.09f));
-    // What lies below a sheen is scaled by a fit, off by up to 0.035 of the sheen's brightest colour (SheenTest).
+    // Light below a sheen is scaled by a fit, off by up to 0.035 of the sheen's brightest colour (SheenTest).
     Material cloth = base;
     cloth.sheenColor = {0.2f, 0.5f, 1.0f};
     cloth.sheenPerceptualRoughness = 0.6f;
@@ -271,7 +271,7 @@ TEST_SWEEP(KnownAnswers, wrappedLightIsTheTextbooks) {
         material.subsurface.wrap = 0.7f;
         material.subsurface.wrapTint = {1.0f, 0.6f, 0.4f};
         for (const Light& light : lights) {
-            // As above; from behind the sheen leaves 0.34 of what lies below, so that 0.035 are a tenth.
+            // As above; from behind, the sheen transmits 0.34 to the surface below, so that 0.035 are a tenth.
             const double sheen = material.sheenColor.z == 0.0f ? 0.0 : light.positionWS.z > 0.0 ? 0.06 : 0.12;
             expectAnswer(fmt::format("wrap, {}, light at z = {}", name, light.positionWS.z).c_str(), material, light,
                          std::max(sheen, 2e-6));

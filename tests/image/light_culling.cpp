@@ -1,4 +1,4 @@
-// Light culling: sound, tight, and without an effect on the picture.
+// Light culling: conservative, tight, and without an effect on the image.
 #include <array>
 #include <span>
 
@@ -70,7 +70,7 @@ protected:
             covered += more.covered;
         }
     };
-    /// Every method misses no light, and draws Forward's picture.
+    /// Expects every method to miss no light, and to give the image of forward.
     Seen expectSoundScene(scenes::Scene scene, std::uint64_t seed);
 
     void expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 sizePixels, std::span<const int> tiles);
@@ -81,7 +81,7 @@ TEST_F(LightCulling, theOracleCountsTheLatticeExactlyAsAnIndependentAnalyticCoun
     const scenes::Scene scene = lattice(1024);
     engine::Renderer renderer(context(), scene);
     const LightOracleFigures figures = judge(renderer, Method::Cluster, 16, {1280, 720});
-    // Half a percent: silhouettes of tessellated spheres differ from those of true ones.
+    // Half a percent: tessellated spheres have other silhouettes than true ones.
     EXPECT_NEAR(double(figures.covered) / (1280.0 * 720.0), 0.816, 0.005 * 0.816);
     EXPECT_NEAR(figures.perPixel(figures.needed), 38.92, 0.005 * 38.92);
     EXPECT_NEAR(figures.perPixel(figures.neededLit), 29.37, 0.005 * 29.37);
@@ -95,7 +95,7 @@ TEST_F(LightCulling, listsAreTightOnTheLattice) {
     EXPECT_LE(*judge(renderer, Method::Cluster, 8, {1280, 720}).tightness(), 1.15);
 }
 
-// In smaller ones LightTable tries every method.
+// LightTable covers every method in smaller images.
 TEST_F(LightCullingSlow, everyMethodIsSoundInLargePictures) {
     const scenes::Scene scene = lattice(1024), hall = scenes::loadScene("hall");
     engine::Renderer renderer(context(), scene), hallRenderer(context(), hall);
@@ -126,7 +126,7 @@ TEST_F(LightCulling, theOracleNoticesALightThatAListLacksOrHasTooMuch) {
     const LightOracleFigures good = judged();
     EXPECT_EQ(good.falseNegatives, 0u);
     ASSERT_GT(good.needed, 0u);
-    // One cell's lights one by one: a light that some pixel of the tile needs is missed when it is gone.
+    // Removes one cell's lights one by one: a removed light that some pixel of the tile needs is missed.
     std::uint64_t missed = 0;
     glm::uvec2& cell = drawn.lists.cells.at(drawn.lists.cells.size() / 2);
     ASSERT_GT(cell.y, 0u);
@@ -138,8 +138,8 @@ TEST_F(LightCulling, theOracleNoticesALightThatAListLacksOrHasTooMuch) {
     EXPECT_LT(judged().evaluated, good.evaluated);
 }
 
-/// The scene as its lists are tried: in a part of a sweep with lights of every kind, so that all are drawn by the same
-/// programs, which are few and small where frames are pruned.
+/// The scene for tests of its lists. A short sweep adds lights of every kind, so that all scenes share programs, which
+/// are few and small where frames are pruned.
 scenes::Scene asTriedInSweep(scenes::Scene scene) {
     return isWholeSweep() ? scene : withEveryKindOfLight(std::move(scene));
 }
@@ -152,7 +152,7 @@ LightCulling::Seen LightCulling::expectSoundScene(scenes::Scene scene, std::uint
     engine::Renderer renderer(context(), scene);
     const glm::ivec2 size = kSizes[random.index(int(std::size(kSizes)))];
     frame::FrameSettings truthSettings = settings(size);
-    // Without pruning all scenes share their programs, however large ones.
+    // Without pruning all scenes share their programs, though these are large.
     truthSettings.prune = !isWholeSweep() || seed % 4 == 0;
     const std::vector<float> truth = renderer.render(Technique::Forward, truthSettings).radiance;
     for (const Method method : kMethods) {
@@ -160,7 +160,7 @@ LightCulling::Seen LightCulling::expectSoundScene(scenes::Scene scene, std::uint
         SCOPED_TRACE(fmt::format("seed {} {} tile {} {}x{}", seed, infoOf(method).name, tile, size.x, size.y));
         frame::FrameSettings asked = settings(size, method, tile);
         asked.prune = truthSettings.prune;
-        asked.culling.normals = culling::NormalTest::Off; // LightNormals tries them
+        asked.culling.normals = culling::NormalTest::Off; // LightNormals covers them
         asked.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
         const Technique technique = random.unit() < 0.5 ? deferredWith(method) : forwardWith(method);
         EXPECT_EQ(renderer.render(technique, asked).radiance, truth);
@@ -175,7 +175,7 @@ LightCulling::Seen LightCulling::expectSoundScene(scenes::Scene scene, std::uint
     return seen;
 }
 
-// Few of their scenes, unless the sweep is whole, and these with pruning.
+// A short sweep takes few of the scenes, with pruning.
 TEST_SWEEP_AS(LightCulling, noLightIsEverMissingFromRandomScenesAndNoPixelDiffers, LightCullingSlow,
               noLightIsMissingFromTwoHundredRandomScenesAndNoPixelDiffers) {
     Seen all;
@@ -200,11 +200,11 @@ TEST_SWEEP(LightCulling, noLightIsMissingWhereAScenesEyeIsFarAwayAndNoPixelDiffe
     fmt::print("{} scenes: {} covered pixels, {} pairs needed, {} visited\n", scenes, all.covered, all.needed,
                all.evaluated);
     EXPECT_GT(all.needed, 375u * scenes) << "scenes that need nothing prove nothing";
-    // From nearby the same kind of scene visits 1.9 times what it needs.
+    // With a near eye the same kind of scene visits 1.9 times what it needs.
     EXPECT_LT(double(all.evaluated), 3.0 * double(all.needed)) << "margins that grow with the eye's distance";
 }
 
-/// Every method of every technique, with every tile of `tiles`.
+/// Compares every method of every technique with forward, at every tile size of `tiles`.
 void LightCulling::expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 sizePixels,
                                          std::span<const int> tiles) {
     engine::Renderer renderer(context(), scene);
@@ -227,15 +227,14 @@ void LightCulling::expectForwardsPicture(const scenes::Scene& scene, glm::ivec2 
 
 constexpr glm::ivec2 kEven{640, 360}, kOdd{641, 359};
 
-/// With counts of lights that fill words and tiles evenly and not, in a picture of a sixteenth of the pixels unless
-/// the sweep is whole.
+/// Counts of lights that fill words and tiles evenly and not. A short sweep has a sixteenth of the pixels.
 TEST_SWEEP(LightCulling, everyMethodGivesExactlyForwardsPictureAtEveryCountOfLights) {
     const glm::ivec2 even = isWholeSweep() ? kEven : glm::ivec2(160, 90);
     const glm::ivec2 odd = isWholeSweep() ? kOdd : glm::ivec2(161, 89);
     bool isOdd = false;
     for (const int count : everyNth(std::vector{1, 31, 32, 33, 255, 256, 257}, 2))
         expectForwardsPicture(lattice(count), (isOdd = !isOdd) ? odd : even, std::array{16});
-    // Forward takes long; the odd size is the harder one.
+    // Forward is slow; the odd size is the harder one.
     expectForwardsPicture(lattice(1024), odd, std::array{16});
     expectForwardsPicture(scenes::loadScene("hall"), odd, std::array{16});
 }
@@ -244,7 +243,7 @@ TEST_SWEEP(LightCulling, everyTileGivesExactlyForwardsPicture) {
     expectForwardsPicture(lattice(257), isWholeSweep() ? kOdd : glm::ivec2(161, 89), culling::kTileSides);
 }
 
-/// By the number of lights of `lattice`, or 0 for `hall`, and size.
+/// Parameters: the number of lights of `lattice`, or 0 for `hall`, and the image size.
 class LightCullingOfThousandsSlow : public LightCulling,
                                     public testing::WithParamInterface<std::tuple<int, glm::ivec2>> {};
 
@@ -256,8 +255,8 @@ TEST_P(LightCullingOfThousandsSlow, thousandsOfLightsGiveExactlyForwardsPictureW
 INSTANTIATE_TEST_SUITE_P(Scenes, LightCullingOfThousandsSlow,
                          testing::Combine(testing::Values(1024, 4097, 0), testing::Values(kEven, kOdd)));
 
-/// The scene with one of its transparent instances, made opaque, and all of its opaque ones; `which` counts from 0.
-/// None where there are fewer.
+/// The scene with all of its opaque instances and one transparent instance, made opaque; `which` counts from 0. None if
+/// there are fewer transparent instances.
 std::optional<scenes::Scene> withOneTransparentMadeOpaque(const scenes::Scene& scene, int which) {
     scenes::Scene twin = scene;
     const auto isTransparent = [&](const scenes::MeshInstance& instance) {
@@ -289,10 +288,10 @@ TEST_SWEEP(LightCulling, noLightIsMissingFromTheListsOfTransparentSurfaces) {
         const scenes::Scene scene = asTriedInSweep(randomLitScene(seed));
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings plain = settings({97, 61});
-        plain.prune = !isWholeSweep(); // else all scenes share their programs
+        plain.prune = !isWholeSweep(); // unpruned, all scenes share their programs
         renderer.draw(Technique::Deferred, plain);
         const std::vector<float> opaque = renderer.downloadDepth();
-        std::vector<std::vector<float>> depths; // of each transparent instance, where it shows
+        std::vector<std::vector<float>> depths; // of each transparent instance, where it is visible
         while (const auto twin = withOneTransparentMadeOpaque(scene, int(depths.size()))) {
             engine::Renderer twinRenderer(context(), *twin);
             twinRenderer.draw(Technique::Deferred, plain);
@@ -306,7 +305,7 @@ TEST_SWEEP(LightCulling, noLightIsMissingFromTheListsOfTransparentSurfaces) {
                 const int tile = culling::kTileSides[i];
                 frame::FrameSettings asked = settings({97, 61}, method, tile);
                 asked.prune = plain.prune;
-                asked.culling.normals = culling::NormalTest::Off; // no lists of transparent surfaces heed them
+                asked.culling.normals = culling::NormalTest::Off; // lists of transparent surfaces ignore normals
                 renderer.draw(deferredWith(method), asked);
                 const engine::DrawnLists drawn = renderer.downloadLists();
                 for (const std::vector<float>& depth : depths) {

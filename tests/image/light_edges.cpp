@@ -1,4 +1,4 @@
-// Light culling at the very edge: lights that reach a pixel by a hair, and those a hair above its surface.
+// Light culling at its limits: lights that barely reach a pixel, and lights just above its surface.
 #include <functional>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -17,7 +17,7 @@ using culling::Method;
 using engine::Technique;
 using namespace test;
 
-/// A technique of each method, a deferred one and one that shades as it rasterises.
+/// A method with a deferred technique and one that shades as it rasterises.
 struct Methods {
     Method method;
     Technique techniques[2];
@@ -27,14 +27,14 @@ constexpr Methods kEdgeMethods[] = {{Method::TileMinmax, {Technique::TiledDeferr
                                     {Method::Cluster, {Technique::ClusteredDeferred, Technique::ClusteredForward}},
                                     {Method::Zbin, {Technique::ClusteredDeferred, Technique::ClusteredForward}}};
 
-/// A light, somewhere, whose range or cone ends a hair behind the surface of a pixel.
+/// A random light whose range or cone ends just behind a surface point.
 scenes::Light lightThatJustReaches(const glm::dvec3& surfaceWS, Random& random) {
     scenes::Light light;
     light.intensity = float(random.logarithmic(1.0, 1e3));
     const glm::dvec3 toSurfaceWS = random.direction();
     const double metres = random.logarithmic(0.05, 50.0);
     light.positionWS = surfaceWS - metres * toSurfaceWS;
-    // From the least distance that fp32 resolves after some roundings to the distance that a bound too small by a
+    // From the smallest distance that fp32 resolves after some roundings to the distance that a bound too small by a
     // hundredth would cut off.
     const double hair = random.logarithmic(1e-6, 1e-2);
     light.rangeMetres = float(metres * (1.0 + hair));
@@ -48,7 +48,7 @@ scenes::Light lightThatJustReaches(const glm::dvec3& surfaceWS, Random& random) 
     return light;
 }
 
-/// A light that stands a hair above the plane of a surface, and reaches far beyond it.
+/// A light just above the plane of a surface, with a range far beyond it.
 scenes::Light lightJustInFront(const glm::dvec3& surfaceWS, const glm::dvec3& normalWS, Random& random) {
     scenes::Light light;
     light.intensity = float(random.logarithmic(1.0, 1e3));
@@ -66,20 +66,20 @@ scenes::Light lightJustInFront(const glm::dvec3& surfaceWS, const glm::dvec3& no
     return light;
 }
 
-/// Half of the time the first or last of eight, since tiles end there.
+/// Half of the time moves to the first or last pixel of eight, where tiles end.
 int towardsTilesEdge(int pixel, int size, Random& random) {
     if (random.unit() < 0.5) return pixel;
     return std::min(size - 1, pixel / 8 * 8 + (random.unit() < 0.5 ? 0 : 7));
 }
 
-/// What a frame shows: the view depths of its depth values, these from the bottom row on, and its normals from the top
-/// one on, RGBA. Where surfaces are transparent the normals are mixed, and shorter than 1.
+/// Contents of a frame: the view depths of its depth values, depth values from the bottom row on, and RGBA normals from
+/// the top row on. Normals of transparent surfaces are blended, and shorter than 1.
 struct Seen {
     frame::DepthInterval depths;
     std::vector<float> depth, normalWS;
 };
 
-/// In place of the scene's lights; none where the picture shows no surface.
+/// Lights to replace the scene's, at the surfaces of random pixels; none if the image shows no surface.
 std::vector<scenes::Light> lightsByAHair(const scenes::Scene& scene, const frame::FrameSettings& settings,
                                          const Seen& seen, bool ofHorizon, Random& random) {
     const validation::PixelPositions positions(scene.cameras[0], settings, seen.depths);
@@ -102,12 +102,11 @@ std::vector<scenes::Light> lightsByAHair(const scenes::Scene& scene, const frame
 
 class LightEdges : public ImageTest {
 protected:
-    /// Random scenes, few of them unless the sweep is whole, and these with pruning; their eyes so many times as
-    /// far away by seed. Lights end by a hair behind a surface; or, with lists that leave out those behind surfaces,
-    /// stand by one in front.
+    /// Tests random scenes with the eye times(seed) times as far away; a short sweep takes few, pruned. Lights end just
+    /// behind a surface or, with `ofHorizon`, stand just in front of one, with lists that omit lights behind surfaces.
     void expectSound(std::uint64_t seeds, const std::function<double(std::uint64_t)>& times, bool ofHorizon = false);
 
-    /// Lit by one sun, since no light changes what is seen, and its programs serve all scenes.
+    /// Renders depth and normals with one sun: no light changes them, and its programs serve all scenes.
     Seen see(engine::Renderer& renderer, scenes::Scene& scene, frame::FrameSettings settings) {
         scene.lights = {sunLight({0.0, 0.0, -1.0}, 1.0f)};
         renderer.draw(Technique::Forward, settings);
@@ -129,8 +128,8 @@ void LightEdges::expectSound(std::uint64_t seeds, const std::function<double(std
         Random random(seed + 5000);
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = ofSize(kSizes[random.index(int(std::size(kSizes)))]);
-        // Without pruning all scenes share their programs, however large ones, which expect coats, whose normals no
-        // list knows.
+        // Without pruning all scenes share their programs, though these are large. They allow for coats, which disable
+        // culling by normals.
         settings.prune = ofHorizon || !isWholeSweep();
         scene.lights = lightsByAHair(scene, settings, see(renderer, scene, settings), ofHorizon, random);
         if (scene.lights.empty()) continue;
@@ -183,7 +182,7 @@ TEST_SWEEP(LightEdges, aLightThatStandsByAHairInFrontOfASurfaceIsNotMissing) {
     expectSound(120, nearby, true);
 }
 
-// A flat wall has no extent along its normal, so that only margins for rounding keep the lights in its plane.
+// A flat wall has no extent along its normal: only margins for rounding keep the lights in its plane.
 TEST_F(LightEdges, lightsInThePlaneOfAWallAreNotMissingFromAnyDistance) {
     std::size_t lit = 0;
     for (std::uint64_t seed = 1; seed <= 48 && !HasFailure(); ++seed) {

@@ -1,4 +1,4 @@
-// Light lists are the same with every builder, and so are the pictures.
+// Light lists and images are the same with every builder.
 #include <gmock/gmock.h>
 
 #include "engine/ChooseSamples.h"
@@ -11,7 +11,7 @@ using culling::Builder;
 using engine::Technique;
 using namespace test;
 
-/// Invocations that build a tile's lists together on the GPU.
+/// GPU invocations that build a tile's lists together.
 constexpr int kLanes[] = {64, 1};
 
 class LightLists : public ImageTest {
@@ -36,7 +36,7 @@ protected:
         return std::move(drawn.lists);
     }
 
-    /// The arithmetic is the same, step by step, and rounded the same by C++ and by Mesa: no tolerance.
+    /// C++ and Mesa do the same arithmetic step by step with the same rounding: no tolerance.
     static void expectEqual(const culling::LightLists& built, const culling::LightLists& truth) {
         ASSERT_EQ(built.tiles.size(), truth.tiles.size());
         for (std::size_t i = 0; i < truth.tiles.size(); ++i)
@@ -45,12 +45,12 @@ protected:
         ASSERT_EQ(built.entries, truth.entries);
     }
 
-    /// All of kLanes, or one of them by turn.
+    /// All of kLanes, or one of them in turn.
     static std::span<const int> lanesOf(bool all, std::size_t turn) {
         return all ? std::span(kLanes) : std::span(kLanes).subspan(turn % std::size(kLanes), 1);
     }
 
-    /// With every method and tile; with all of kLanes, or one in turn.
+    /// Compares lists with every method and tile size; with all of kLanes, or one in turn.
     void expectSameLists(const scenes::Scene& scene, frame::FrameSettings settings, std::span<const int> tiles,
                          bool allLanes = true, std::size_t turn = 0) {
         engine::Renderer renderer(context(), scene);
@@ -62,7 +62,7 @@ protected:
                 settings.culling.builder = Builder::Cpu;
                 settings.culling.normals = culling::NormalTest::Off;
                 const culling::LightLists truth = lists(renderer, settings);
-                // The first light of the lattice is out of view; a tile's box, wider than its view, may still touch it.
+                // The lattice's first light is out of view; a tile's box, wider than its frustum, may still touch it.
                 EXPECT_TRUE(scene.lights.size() == 1 || !truth.entries.empty());
                 for (const int lanes : lanesOf(allLanes, turn++)) {
                     SCOPED_TRACE(fmt::format("{}, tile {}, {} lanes", method.name, tile, lanes));
@@ -72,8 +72,8 @@ protected:
         }
     }
 
-    /// With every technique, every method and all of kLanes; or every technique with one method and one of kLanes in
-    /// turn. Forward's is pruned, which changes no bit.
+    /// Compares with forward every technique, with every method and all of kLanes, or with one method and one of kLanes
+    /// in turn. Forward is pruned, which changes no bit.
     void expectForwardsPicture(const scenes::Scene& scene, frame::FrameSettings settings, bool allLanes) {
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings pruned = settings;
@@ -147,7 +147,7 @@ TEST_SWEEP(LightLists, listsOfMultisampledPicturesAreExactlyTheSameOnTheGpuAndLi
         SCOPED_TRACE(samples);
         frame::FrameSettings settings = withSamples(ofSize(161, 91), samples);
         settings = engine::settingsOn(context().capabilities(), settings);
-        if (settings.samples == tried) continue; // what the driver gives for both
+        if (settings.samples == tried) continue; // the driver has the same for both
         tried = settings.samples;
         expectSameLists(sceneOfLists(), settings, std::array{8, 64}, isWholeSweep());
         expectForwardsPicture(sceneOfLists(), settings, isWholeSweep());
@@ -159,7 +159,7 @@ TEST_SWEEP(LightLists, anyCountOfLightsGivesTheSameLists) {
     settings.prune = !isWholeSweep();
     std::size_t turn = 0;
     for (const int count : {1, 31, 32, 33, 4097}) {
-        if (count == 1 && settings.prune) continue; // the lattice's first light is out of view, so it would be left out
+        if (count == 1 && settings.prune) continue; // the lattice's first light is out of view and would be pruned
         SCOPED_TRACE(count);
         expectSameLists(latticeOf(count), settings, std::array{16}, isWholeSweep(), turn++);
     }

@@ -1,4 +1,4 @@
-// Light culling by normals: lights behind all surfaces of a cell are left out, and the picture stays the same.
+// Light culling by normals: omits lights behind all surfaces of a cell, and keeps the image.
 
 #include "scenes/AreaLight.h"
 #include "tests/image/ImageTest.h"
@@ -40,7 +40,7 @@ protected:
     struct Visited {
         double byReach, byNormals; ///< pairs
     };
-    /// Expects the same picture with normals and without, and no pair missing.
+    /// Expects the same image with normals and without, and no missing pair.
     Visited expectSame(engine::Renderer& renderer, Technique technique, frame::FrameSettings settings) {
         settings.culling.normals = culling::NormalTest::Off;
         const std::vector<float> truth = renderer.render(technique, settings).radiance;
@@ -53,9 +53,9 @@ protected:
     }
 };
 
-// Each method with tiles of 8 and of 16 pixels, or that of the longest and of the shortest lists with one of them.
+// Each method at tiles of 8 and 16 pixels, or those with the longest and the shortest lists at one of them.
 TEST_SWEEP(LightNormals, listsAreTighterAroundLitPairs) {
-    /// Visited over lit pairs of the lattice: the measured value (Mesa 22.3.6) plus 2 %; 1.15 where that is the aim and
+    /// Visited over lit pairs of the lattice: the measured value (Mesa 22.3.6) plus 2 %, or the goal of 1.15 where
     /// 1.146 was measured.
     struct Bar {
         NormalMethod of;
@@ -109,7 +109,7 @@ TEST_F(LightNormals, aCoatIsLitFromBehindTheSurfaceBelowIt) {
     EXPECT_EQ(renderer.downloadLists().culling.normals, culling::NormalTest::Off);
 }
 
-/// They shine into half of space, which lists and the oracle both know.
+/// One-sided flat lights emit into half of space, which lists and the oracle both consider.
 TEST_F(LightNormals, listsOfFlatLightsWithOneSideLackNone) {
     scenes::Scene scene = latticeLitBy(200);
     Random random(5);
@@ -137,7 +137,7 @@ TEST_F(LightNormals, theOracleNoticesALitLightThatAListLacks) {
     engine::DrawnLists drawn = renderer.downloadLists();
     const std::vector<float> depth = renderer.downloadDepth();
     EXPECT_THROW(validation::judgeLights({scene, settings, drawn, depth, {}}), std::invalid_argument);
-    // Normals that face the viewer are near enough to the true ones that some light must be lit.
+    // Normals that face the viewer are close enough to the true ones that some light must be lit.
     const glm::dvec3 towardsViewer(scene.cameras[0].worldFromCamera[2]);
     std::vector<float> normalWS;
     for (std::size_t i = 0; i < depth.size(); ++i)
@@ -150,7 +150,7 @@ TEST_F(LightNormals, theOracleNoticesALitLightThatAListLacks) {
     };
     const std::uint64_t lit = missed();
     EXPECT_GT(lit, 0u);
-    // Broken normals excuse nothing, and neither does a list that says to hold every light in reach.
+    // Broken normals exclude no light, and neither does a list that claims to hold every light in range.
     std::fill(normalWS.begin(), normalWS.end(), 0.0f);
     EXPECT_GT(missed(), lit);
     drawn.culling.normals = culling::NormalTest::Off;
@@ -181,7 +181,7 @@ TEST_SWEEP(LightNormals, everyFormOfStoredNormalsGivesTheSamePicture) {
                 settings.layout = layouts[layout];
                 const Visited visited = expectSame(renderer, of.technique, settings);
                 if (layout == 0) exact = visited.byNormals;
-                // Ten bits a coordinate turn normals by 1e-3 or 2e-3, and their boxes by as much.
+                // Ten bits per coordinate turn normals by 1e-3 or 2e-3, and widen their bounds by as much.
                 EXPECT_NEAR(visited.byNormals, exact, 0.01 * exact);
                 EXPECT_LT(visited.byNormals, visited.byReach);
             }
@@ -204,7 +204,7 @@ TEST_SWEEP(LightNormals, everyTileGivesTheSamePicture) {
     }
 }
 
-/// Without what is lit from behind, coats and light that wraps around, and lit by many lights besides its own.
+/// The scene lit by many more lights, without coats and wrapped light, which are lit from behind.
 scenes::Scene amongLights(scenes::Scene scene, int lights, float rangeMetres) {
     const scenes::Scene lit = litFromWithin(scene, lights, rangeMetres);
     scene.lights.insert(scene.lights.end(), lit.lights.begin(), lit.lights.end());
@@ -215,13 +215,13 @@ scenes::Scene amongLights(scenes::Scene scene, int lights, float rangeMetres) {
     return scene;
 }
 
-// Normal maps, directions of gloss, cloth, Phong lobes, surfaces that are not lit and those that let light through.
-// Each scene with all methods. Or two with one: that of everything in axes of the view, and the head.
+// Normal maps, anisotropy, cloth, Phong lobes, unlit surfaces and transmissive ones. Each scene with all methods. In a
+// short sweep two scenes with one each: everything in view space, and the head.
 TEST_SWEEP(LightNormals, everyModelLitFromTheFrontAloneKeepsItsPicture) {
     std::vector<scenes::Scene> lit{amongLights(everythingScene(), 150, 3.0f),
                                    amongLights(scenes::loadScene("head"), 100, 1.0f)};
     if (isWholeSweep()) lit.push_back(amongLights(scenes::loadScene("models"), 150, 3.0f));
-    std::size_t turn = 1; // beginning with Method::Tile25d
+    std::size_t turn = 1; // starts with Method::Tile25d
     for (const scenes::Scene& scene : lit) {
         engine::Renderer renderer(context(), scene);
         for (const NormalMethod& of : inTurn(kByNormals, turn++)) {

@@ -1,4 +1,4 @@
-// Pictures of area lights: every technique, what they leave out, known answers, and the reference.
+// Textured area lights: parity of techniques, pruning, known answers, and the reference.
 #include <numbers>
 
 #include "engine/PrepareView.h"
@@ -21,7 +21,7 @@ scenes::Light picturedArea(LightType type, const glm::dvec3& positionWS, const g
     return light;
 }
 
-/// Four by four fields of colours, each of four by four texels.
+/// Four by four fields of different colours, of four by four texels each.
 scenes::LightTexture fieldsTexture() {
     return lightTexture(16, 16, [](int x, int y) {
         const int field = x / 4 + 4 * (y / 4);
@@ -61,7 +61,7 @@ TEST_SWEEP(LightPictures, everyTechniqueGivesTheSamePictureToTheLastBit) {
         frame::FrameSettings settings = ofSize(96, 54);
         expectParity(renderer, settings, isWholeSweep() ? std::vector<Technique>{} : techniquesInTurn(3));
         for (scenes::Light& light : scene.lights) light.rangeMetres = scenes::kInfinity;
-        settings.rangeTolerance = 0.05; // by which lists end lights
+        settings.rangeTolerance = 0.05; // truncates lights in the lists
         engine::Renderer tolerant(context(), scene);
         expectParity(tolerant, settings, {Technique::ClusteredDeferred});
         settings.area = {frame::AreaLights::Sampled, 4};
@@ -113,7 +113,7 @@ TEST_F(LightPictures, aWhiteOneChangesNoBitAndAnEvenOneIsAFactor) {
 TEST_F(LightPictures, aPictureIsSeenSharpAndTheRightWayRound) {
     for (const LightType type : kFlatTypes) {
         SCOPED_TRACE(scenes::infoOf(type).name);
-        // From the front, x to the right and y upwards: red is left, green at the top.
+        // Viewed from the front, x to the right and y up: red is left, green at the top.
         scenes::Light light = picturedArea(type, {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {});
         light.alongWS = {1.0, 0.0, 0.0};
         light.intensity = 1.0f;
@@ -124,14 +124,14 @@ TEST_F(LightPictures, aPictureIsSeenSharpAndTheRightWayRound) {
         scene.lights = {light};
         makeOrthographic(scene.cameras[0], 0.5);
         const std::vector<float> radiance = drawn(scene, ofSize(64, 64));
-        const double half = type == LightType::Polygon ? std::sqrt(0.5) : 0.5; // the default corners reach so far
+        const double half = type == LightType::Polygon ? std::sqrt(0.5) : 0.5; // half extent of the corners
         int compared = 0;
         for (int y = 0; y < 64; ++y)
             for (int x = 0; x < 64; ++x) {
                 const float* const pixel = pixelAt(radiance, 64, x, y);
                 if (pixel[2] != 0.5f) continue;
                 ++compared;
-                // Metres from the middle; between the two centres of texels the factor falls linearly.
+                // Metres from the centre; the factor is linear between the two texel centres.
                 const double right = (x + 0.5) / 64.0 - 0.5, up = 0.5 - (y + 0.5) / 64.0;
                 ASSERT_NEAR(pixel[0], std::clamp(0.5 - right / half, 0.0, 1.0), 1e-4) << x << ", " << y;
                 ASSERT_NEAR(pixel[1], std::clamp(0.5 + up / half, 0.0, 1.0), 1e-4) << x << ", " << y;
@@ -153,7 +153,7 @@ TEST_F(LightPictures, surfacesAreSeenAsTheReferenceSeesThem) {
     const validation::ReferencePicture truth = strictReference(scene, ofSize(96, 54));
     int bright = 0, wrong = 0;
     for (std::size_t i = 0; i < truth.picture.pixelCount(); ++i) {
-        if (!(truth.picture.rgba[4 * i + 2] > 0.7f)) continue; // blue of a quarter and 2, times 3
+        if (!(truth.picture.rgba[4 * i + 2] > 0.7f)) continue; // blue is 0.25 or 2, times 3
         ++bright;
         for (std::size_t c = 0; c < 3; ++c)
             if (std::abs(radiance[4 * i + c] - truth.picture.rgba[4 * i + c]) > 1e-3f) {
@@ -166,11 +166,11 @@ TEST_F(LightPictures, surfacesAreSeenAsTheReferenceSeesThem) {
     EXPECT_LE(wrong, bright / 20); // on outlines
 }
 
-/// Irradiance of the middle of a matte quad in z = 0.
+/// Irradiance at the centre of a matte quad in z = 0.
 class LightPictureTruth : public MiddleOfQuadTest {
 protected:
     double irradiance(const scenes::Light& light) { return seen(matte(), {light}); }
-    /// Of the picture of a ball under a rectangle so far away, against the integral over the light.
+    /// Error of an image of a ball under a rectangle at this distance, against the integral over the light.
     BallError onBall(const scenes::Material& material, double distanceMetres, const scenes::LightTexture& texture) {
         scenes::Scene scene = ballUnderSky(material);
         const glm::dvec3 towards = glm::normalize(glm::dvec3(1.2, 1.5, 2.0));
@@ -180,7 +180,7 @@ protected:
     }
 };
 
-/// Samples of a light with a picture, against the integral over both, at one point that 256 pixels see.
+/// Sampled textured lights against the integral over light and texture, at one point that 256 pixels show.
 TEST_F(LightPictureTruth, samplesAgreeWithTheIntegralWithinThreeStandardErrors) {
     const scenes::Material metal = twoSided(metalOf(0.4));
     for (const LightType type : inTurn(kFlatTypes, 2)) {
@@ -207,7 +207,7 @@ TEST_F(LightPictureTruth, samplesAgreeWithTheIntegralWithinThreeStandardErrors) 
     }
 }
 
-/// Of which the closed form of a rectangle of half the width is the truth.
+/// The truth is the closed form of a rectangle of half the width.
 TEST_F(LightPictureTruth, halfOfAPictureLightsAsHalfOfTheRectangleFromAfar) {
     const scenes::LightTexture half = lightTexture(64, 1, [](int x, int) { return glm::vec3(x < 32 ? 1.0f : 0.0f); });
     for (const double distance : {0.5, 1.0, 2.0, 4.0, 8.0, 16.0})
@@ -220,21 +220,21 @@ TEST_F(LightPictureTruth, halfOfAPictureLightsAsHalfOfTheRectangleFromAfar) {
             left.positionWS -= 0.25 * left.alongWS;
             const double found = irradiance(whole), wanted = irradiance(left), error = found / wanted - 1.0;
             fmt::print("{:4} m away, {:4} m aside: {:+.1e}\n", distance, aside * distance, error);
-            // Straight ahead both halves count the same. From afar the mean place is right to the square of the width
-            // over the distance; nearer it is known nearly, and what lies around it as a Gaussian.
+            // Straight ahead both halves contribute the same. From afar the weighted mean position is accurate to the
+            // square of the width over the distance; nearby it is approximate, with a Gaussian around it.
             EXPECT_NEAR(error, 0.0, aside == 0.0 ? 2e-3 : distance < 2.0 ? 0.2 : 5e-3);
         }
 }
 
-/// A point below the middle of a square of this side, as far away: the light's configuration factor. Siegel and Howell
-/// 1972, "Thermal Radiation Heat Transfer", of four quarters.
+/// Configuration factor of a square of this side for a point below its centre, at this distance, from four quarters.
+/// Siegel and Howell 1972, "Thermal Radiation Heat Transfer".
 double factorOfSquareAbove(double sideMetres, double distanceMetres) {
     const double x = 0.5 * sideMetres / distanceMetres, root = std::sqrt(1.0 + x * x);
     return 4.0 / std::numbers::pi * x / root * std::atan(x / root);
 }
 
-/// Of a square whose middle alone shines, straight ahead: what is left of the Gaussian's own error is 7 % more at
-/// 0.2 m and 9 % less at 0.5 m. One of half or twice the width errs by a third and more from 0.2 to 0.5 m.
+/// A square with a bright middle, straight ahead: the Gaussian's error is 7 % more at 0.2 m and 9 % less at 0.5 m. One
+/// of half or twice the width errs by a third and more from 0.2 to 0.5 m.
 TEST_F(LightPictureTruth, aBrightMiddleIsSeenAsWideAsACosineSeesIt) {
     const scenes::LightTexture middle = lightTexture(64, 64, [](int x, int y) {
         const bool isWithin = x >= 16 && x < 48 && y >= 16 && y < 48;
@@ -251,7 +251,7 @@ TEST_F(LightPictureTruth, aBrightMiddleIsSeenAsWideAsACosineSeesIt) {
     }
 }
 
-/// docs/area-lights.md has what this prints.
+/// docs/area-lights.md contains the printed table.
 TEST_SWEEP(LightPictureTruth, onABallPicturesAreNearTheirIntegral) {
     const std::vector<double> distances = isWholeSweep() ? std::vector{0.25, 1.0, 4.0} : std::vector{1.0};
     const std::vector<double> roughnesses = isWholeSweep() ? std::vector{0.0, 0.25, 0.5, 0.75, 1.0} : std::vector{0.5};

@@ -1,4 +1,4 @@
-// Lights that a range tolerance ends.
+// Lights truncated by a range tolerance.
 #include <numbers>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -27,7 +27,7 @@ scenes::Light attenuatedLight(const glm::dvec3& positionWS, float intensity, con
     return light;
 }
 
-/// The scene in a room's worth of lights that fall off by A B C, every third a spot, in place of its own.
+/// Replaces the scene's lights by a roomful that attenuate by A B C, every third a spot.
 scenes::Scene inAttenuatedLights(scenes::Scene scene) {
     scene.lights.clear();
     Random random(21);
@@ -70,7 +70,7 @@ TEST_F(LightRange, anEndedLightIsExactlyZeroFromItsRadiusOnAndWindowedBefore) {
             const double window = std::max(0.0, 1.0 - std::pow(d / radius, 4.0));
             for (int channel = 0; channel < 3; ++channel) {
                 const double value = picture.pixel(i)[channel], albedo = painted.baseColor[channel];
-                // As for every light: roundings of fp32, against the light without its window, which is a difference.
+                // As for every light: fp32 roundings relative to the light without its window, which is a difference.
                 ASSERT_NEAR(value, albedo * whole * window * window, 3e-6 * albedo * whole) << x << " " << y;
                 ASSERT_TRUE(d < radius || value == 0.0) << x << " " << y << " holds " << value;
             }
@@ -100,15 +100,15 @@ TEST_F(LightRange, theBiasIsBelowZeroAndVanishesWithTheTolerance) {
         lastBias = dropped.figures.bias;
         lastRelMse = dropped.figures.relMse;
     }
-    // (d / r)^4 of 10 m and 1e5 m is below fp32's step at one: every window is exactly 1.
+    // (d / r)^4 of 10 m and 1e5 m is below the fp32 step at 1: every window is exactly 1.
     settings.rangeTolerance = 1e-12;
     const validation::RangeTruncation nothing = validation::rangeTruncation(renderer, Technique::Forward, settings);
     EXPECT_EQ(nothing.figures.bitEqual, 1.0);
     EXPECT_EQ(nothing.figures.bias, 0.0);
 }
 
-/// Every technique with every method it takes, without pruning in turn, on a scene of everything; or each with
-/// some method and each method with some technique, on Lambert materials, without pruning in forward alone.
+/// Every technique with every supported method, alternately without pruning, on a scene of everything. In a short sweep
+/// each technique with some method and each method with some technique, pruned, on Lambert materials.
 TEST_SWEEP(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingMethod) {
     const bool isWhole = isWholeSweep();
     const scenes::Scene scene = inAttenuatedLights(isWhole ? everythingScene() : lambertScene());
@@ -124,7 +124,7 @@ TEST_SWEEP(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingM
         request.settings.culling.method = method.method;
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
             if (!engine::takesMethod(technique.technique, method.method)) continue;
-            // Two techniques share each method that lists lights.
+            // Two techniques share each method with light lists.
             if (!isWhole && engine::hasLightLists(technique.technique) && turn++ % 2 != std::size_t(method.method) % 2)
                 continue;
             request.techniques.push_back(technique.technique);
@@ -132,7 +132,7 @@ TEST_SWEEP(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingM
                 culling::Method::None)
                 ++listed;
         }
-        // With and without pruning in turn: the forward picture is the same with both, as the end shows.
+        // Alternates pruning: the forward image is the same with both, as checked at the end.
         if (isWhole) settings.prune = !settings.prune;
         request.settings.prune = settings.prune;
         const validation::CompareRecord record = compareTechniques(renderer, context().capabilities(), request).record;
@@ -144,7 +144,7 @@ TEST_SWEEP(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingM
     EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, forward);
 }
 
-/// Of the lists of every technique by every method; or by one of them, in a picture of a quarter of the pixels.
+/// Lists of every technique with every method; in a short sweep with one of them, at a quarter of the pixels.
 TEST_SWEEP(LightRange, anEndedLightIsNotMissingFromAListThatNeedsIt) {
     const bool isWhole = isWholeSweep();
     const scenes::Scene scene = inAttenuatedLights(isWhole ? everythingScene() : lambertScene());
@@ -156,7 +156,7 @@ TEST_SWEEP(LightRange, anEndedLightIsNotMissingFromAListThatNeedsIt) {
     for (const engine::TechniqueInfo& technique : engine::techniqueTable())
         for (const culling::Method method : technique.methods) {
             if (method == culling::Method::None) continue;
-            // Deferred techniques with their first method, the others with their second.
+            // Deferred techniques with their first method, others with their second.
             if (!isWhole && (turn++ % 2 == 0) != technique.usesGBuffer()) continue;
             settings.culling.method = method;
             const validation::LightOracleFigures figures =
@@ -176,8 +176,8 @@ struct Cone {
 
 class LightCones : public ImageTest {
 protected:
-    /// A spot 2 m before a wall that it meets squarely, seen so closely that its light fills three quarters of the
-    /// picture. `worldFromLight` turns all of it about the origin.
+    /// A spot 2 m in front of a wall, at a right angle, viewed so closely that its light fills three quarters of the
+    /// image. `worldFromLight` rotates all of it about the origin.
     static scenes::Scene spotOnWall(const Cone& cone, const glm::dmat4& worldFromLight) {
         constexpr double kDegree = std::numbers::pi / 180.0, kMetres = 2.0;
         scenes::Material material = lambert();
@@ -222,7 +222,7 @@ TEST_F(LightCones, aNarrowOrHardConeIsThatOfTheReference) {
         expectTheReferences(cone, glm::dmat4(1.0), kEveryPicture);
 }
 
-/// The angle from the axis is off by the rounding of ray and axis to fp32, 2e-7 rad, in any direction.
+/// The angle from the axis has the fp32 rounding error of ray and axis, 2e-7 rad, in any direction.
 TEST_F(LightCones, anObliqueNarrowConeKeepsTheDigitsThatItsRayHas) {
     const glm::dmat4 oblique = glm::rotate(glm::dmat4(1.0), 2.1, glm::normalize(glm::dvec3(0.36, 0.48, 0.8)));
     for (const double outerDegrees : {0.1, 0.5, 1.0, 5.0, 20.0})

@@ -1,4 +1,4 @@
-// More lights than software rasterisers let a loop visit one by one: none is lost, in any technique.
+// More lights than software rasterisers can visit in one loop: no technique loses any.
 
 #include <gmock/gmock.h>
 
@@ -19,10 +19,9 @@ using namespace test;
 
 constexpr int kSidePixels = 8;
 
-/// A wall that leans away to the left, so that its pixels lie in several bins of depth, lit by `count` lights in as
-/// many runs as there are pixels, each above a pixel of its own. Half of them reach only that pixel, so that bitmasks
-/// have empty words, the others all. The last of a run is as bright as the rest of it, so that losing one light is
-/// seen.
+/// A wall that recedes to the left, so that its pixels lie in several depth bins. Its `count` lights form one run per
+/// pixel, each above that pixel. Half of them reach only that pixel, so that bitmasks have empty words, the others all.
+/// The last of a run is as bright as the rest of it, so that losing one light shows.
 scenes::Scene wallOf(int count) {
     scenes::Material material = lambert();
     scenes::Scene scene = quadScene(material);
@@ -52,10 +51,10 @@ protected:
         result.display = false;
         return result;
     }
-    /// Forward against the reference, and every other technique and method against forward, bit by bit; or each
-    /// third of them in turn.
+    /// Compares forward with the reference, and every other technique and method with forward, bit by bit; or a third
+    /// of them in turn.
     void expectEveryLight(int count, bool every, std::size_t turn = 0);
-    /// The same bits with every number of lights per round.
+    /// Expects the same bits for every number of lights per round.
     void expectOnePicture(const scenes::Scene& scene);
 };
 using LightRoundsSlow = LightRounds;
@@ -68,7 +67,7 @@ void LightRounds::expectEveryLight(int count, bool every, std::size_t turn) {
     const validation::ErrorFigures figures =
         validation::errorFigures(engine::toPicture(forward), validation::referencePicture(scene, settings()).picture);
     EXPECT_EQ(figures.compared, std::size_t(kSidePixels * kSidePixels));
-    // A sum of N terms in fp32 is off by N 2^-24 of itself at most. The last light of a run is a fifth of its pixel.
+    // An fp32 sum of N terms is off by at most N 2^-24 of itself. The last light of a run is a fifth of its pixel.
     EXPECT_LE(figures.maxRel, std::max(1e-4, count * 0x1p-24));
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         frame::FrameSettings asked = settings();
@@ -81,7 +80,7 @@ void LightRounds::expectEveryLight(int count, bool every, std::size_t turn) {
     }
 }
 
-/// With counts of lights about those from which a round visits more of them, or with those beyond three of them.
+/// Counts around those at which the lights per round increase; in a short sweep counts beyond three of them.
 TEST_SWEEP(LightRounds, everyLightReachesItsPixelInEveryTechnique) {
     std::vector<int> counts{32769, 65537, 200000};
     if (isWholeSweep()) counts = {32767, 32769, 65535, 65537, 131071, 200000};
@@ -104,7 +103,7 @@ TEST_F(LightRounds, oneLightMoreThanASceneCanHaveIsRefused) {
                                            "of them, or load only the first"));
 }
 
-/// What builds lists in shaders loops over lights too.
+/// Shaders that build lists loop over lights too.
 TEST_SWEEP(LightRounds, listsBuiltOnTheGpuNeverLackALight) {
     constexpr int kLanesATile[] = {64, 1};
     std::size_t turn = 0;

@@ -1,4 +1,4 @@
-// The whole table of light culling: every method at every tile side, on scenes of different depth.
+// The whole table of light culling: every method at every tile size, on scenes of different depth.
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
@@ -23,7 +23,7 @@ using namespace test;
 
 class LightTable : public ImageTest {
 protected:
-    /// Prints the table and returns the pairs evaluated. TESSERA_TABLE_FULL asks for figures of full pictures.
+    /// Prints the table and returns the evaluated pairs. TESSERA_TABLE_FULL selects full-size images.
     Evaluated judge(const scenes::Scene& scene, std::span<const int> tileSides = culling::kTileSides) {
         frame::FrameSettings settings;
         settings.sizePixels =
@@ -47,7 +47,7 @@ protected:
         }
         return evaluated;
     }
-    /// With every tile side, or with some.
+    /// With every tile size, or with the given ones.
     void judgeSome(const scenes::Scene& scene, std::initializer_list<int> tileSides) {
         judge(scene, isWholeSweep() ? std::span<const int>(culling::kTileSides) : std::span<const int>(tileSides));
     }
@@ -70,14 +70,14 @@ TEST_F(LightTable, everyMethodAndTileIsSoundInSponza) {
         << "a view without depth judges nothing";
 }
 
-/// At every tile side, or at every other one; LightCulling.depthSlicesPayWhereDepthHasDeepGaps has the usual one.
+/// At every tile size, or every other; LightCulling.depthSlicesPayWhereDepthHasDeepGaps covers the usual one.
 TEST_SWEEP(LightTable, depthSlicesPayAtEveryTileSideWhereDepthHasDeepGaps) {
     const std::vector<int> tileSides =
         everyNth(std::vector(std::begin(culling::kTileSides), std::end(culling::kTileSides)), 2);
     Evaluated evaluated = judge(columnsBeforeWall(1500), tileSides);
     for (const int tile : tileSides) {
         SCOPED_TRACE(tile);
-        // The bar of the comparison at tile 16; larger tiles span more of the gaps, smaller ones fewer.
+        // The limit of the comparison at tile 16; larger tiles span more of the gaps, smaller ones fewer.
         const double bar = tile >= 16 ? 1.5 : 1.0;
         const auto pairs = [&](Method method) { return evaluated[{method, tile}]; };
         EXPECT_GE(pairs(Method::TileMinmax), bar * pairs(Method::Tile25d));
@@ -85,9 +85,9 @@ TEST_SWEEP(LightTable, depthSlicesPayAtEveryTileSideWhereDepthHasDeepGaps) {
     }
 }
 
-// How many lights too many lists hold at most: culling that says yes too often is sound, and only counting sees it.
+// How many unneeded lights lists may hold: culling that is too conservative is sound, and only counting detects it.
 
-/// The lattice's lights as spots that point anywhere.
+/// The lattice's lights as spots in all directions.
 scenes::Scene latticeOfSpots() {
     scenes::Scene scene = latticeOf(1024);
     const double count = double(scene.lights.size());
@@ -119,7 +119,7 @@ struct LooseTest {
     const char* file; ///< below shaders/
     const char* from;
     const char* to;
-    bool ofSpots; ///< the scene whose bar must see it
+    bool ofSpots; ///< the scene whose limit must detect it
     Method method;
 };
 constexpr LooseTest kLooseTests[] = {
@@ -159,7 +159,7 @@ TEST_F(LightTightness, everyMethodMeetsItsTightnessTolerance) {
     }
 }
 
-/// Shaders that build lists with one fault each, all of them sound.
+/// Shaders that build lists with one fault each, none of which misses a light.
 TEST_F(LightTightness, aTooLooseTestMissesATightnessTolerance) {
     for (const LooseTest& loose : kLooseTests) {
         SCOPED_TRACE(loose.fault);

@@ -1,4 +1,4 @@
-// deferred_volumes against deferred: a proxy volume that loses a pixel of its light, or meets one twice, changes a bit.
+// deferred_volumes against deferred: a proxy volume that misses a lit pixel, or covers one twice, changes a bit.
 #include <functional>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -62,7 +62,7 @@ scenes::Camera randomCamera(Random& random) {
     return camera;
 }
 
-/// A quad that fills the picture, 3 m ahead.
+/// A quad that fills the image, 3 m ahead.
 scenes::Scene wall() {
     scenes::Material material = lambert();
     return quadScene(material);
@@ -70,8 +70,8 @@ scenes::Scene wall() {
 
 class LightVolumes : public ImageTest {
 protected:
-    /// Whether the lights change the picture; fails where the two techniques differ. The renderer, which is of `scene`,
-    /// reads its lights and cameras anew at each frame, so one renderer, and its programs, serve all of them.
+    /// Returns whether the lights change the image; fails where the two techniques differ. The renderer of `scene`
+    /// reads lights and cameras anew at each frame, so one renderer, and its programs, serve all of them.
     bool expectEqual(engine::Renderer& renderer, scenes::Scene& scene, const frame::FrameSettings& settings) {
         const std::vector<float> deferred = renderer.render(Technique::Deferred, settings).radiance;
         const std::vector<float> volumes = renderer.render(Technique::DeferredVolumes, settings).radiance;
@@ -91,7 +91,7 @@ protected:
         return sumOf(deferred) > sumOf(unlit(renderer, scene, settings));
     }
 
-    /// The scene's picture when all its lights are off.
+    /// The scene's image with all lights off.
     static std::vector<float> unlit(engine::Renderer& renderer, scenes::Scene& scene,
                                     const frame::FrameSettings& settings) {
         const std::vector<scenes::Light> lights = scene.lights;
@@ -108,7 +108,7 @@ protected:
 
     static frame::FrameSettings sized(int width, int height) { return ofSize(width, height); }
 
-    /// Pixels that the only light of the scene changes, and those that its volume covers.
+    /// Pixels lit by the only light of the scene, and pixels covered by its volume.
     struct Share {
         int lit = 0;
         int visited = 0;
@@ -175,7 +175,7 @@ std::vector<ViewerAndLight> cases() {
     return all;
 }
 
-// Lambert materials unless the sweep is whole: which pixels a volume covers is no matter of them.
+// Lambert materials in a short sweep: the pixels that a volume covers do not depend on materials.
 TEST_SWEEP(LightVolumes, everyPlaceOfALightIsExactlyAsInDeferred) {
     const scenes::Scene before = sceneOfVolumes();
     scenes::Scene scene = before;
@@ -214,7 +214,7 @@ TEST_SWEEP(LightVolumes, randomScenesAreExactlyAsInDeferred) {
     EXPECT_GE(lit, scenes * 3 / 4) << "too many pictures without light to say anything";
 }
 
-// Outlines of a few pixels, so many that some pixel centres fall within a vertex's snapping of them.
+// Outlines of a few pixels, so many that some pixel centres lie within a vertex's snapping error.
 TEST_F(LightVolumes, thousandsOfSmallLightsAreExactlyAsInDeferred) {
     scenes::Scene scene = wall();
     Random random(7);
@@ -226,8 +226,8 @@ TEST_F(LightVolumes, thousandsOfSmallLightsAreExactlyAsInDeferred) {
     EXPECT_TRUE(expectEqual(renderer, scene, sized(97, 61)));
 }
 
-// Seen from the side, so that the lit part ends at the hull's outline; and the whole scene turned at random,
-// since the corners of an octagon stand out by 8 % and hide a hull that is too narrow.
+// Viewed from the side, so that the lit part ends at the hull's outline. The whole scene is rotated at random: the
+// corners of an octagon protrude by 8 % and hide a hull that is too narrow.
 TEST_F(LightVolumes, spotsAlongAWallAreExactlyAsInDeferred) {
     const scenes::Scene upright = wall();
     Random random(11);
@@ -260,7 +260,7 @@ TEST_F(LightVolumes, aSphereNeverVisitsMuchMoreThanItsCircle) {
     const Share share = shareOf(scene);
     ASSERT_GT(share.lit, 5000);
     // 1.055 for the octagon; the sphere's outline is 1.02 times its section's at this distance; the rest is pixels at
-    // the edge, where the light has faded to less than the smallest float of the picture's steps.
+    // the edge, where the light has faded below the smallest step of the image.
     EXPECT_LE(share.visited, 1.12 * share.lit);
 }
 
@@ -270,12 +270,12 @@ TEST_F(LightVolumes, aConeNeverVisitsMuchMoreThanItsSpot) {
     scene.lights[0].rangeMetres = 1.6f;
     const Share share = shareOf(scene);
     ASSERT_GT(share.lit, 2000);
-    // The hull is seen from 1.5 m behind its apex, so the cone's nearer part stands before the spot and grows it
-    // little; 1.055 is the octagon's, and the cap's profile adds up to a tenth to the radius.
+    // The hull is viewed from 1.5 m behind its apex, so the cone's nearer part lies in front of the spot and enlarges
+    // it little; 1.055 is for the octagon, and the cap's profile adds up to a tenth to the radius.
     EXPECT_LE(share.visited, 1.3 * share.lit);
 }
 
-// Up to 84 degrees a hull is drawn, not the sphere, which is more than twice as large.
+// Up to 84 degrees the hull is drawn instead of the sphere, which is more than twice as large.
 TEST_F(LightVolumes, aWideConeNeverVisitsItsWholeSphere) {
     scenes::Scene scene = wall();
     scene.lights = {spotLight({0.0, -0.2, 0.01}, {0.0, 1.0, 0.0}, 82.0 * pi / 180.0)};
@@ -285,7 +285,7 @@ TEST_F(LightVolumes, aWideConeNeverVisitsItsWholeSphere) {
     EXPECT_LE(share.visited, 1.5 * share.lit) << share.visited << " " << share.lit;
 }
 
-// Beside the eye, which is just outside of it: still an outline, not the whole picture.
+// The eye is just outside of the sphere, which still has an outline and does not cover the whole image.
 TEST_F(LightVolumes, aSphereThatAlmostHoldsTheEyeNeverVisitsTheWholePicture) {
     scenes::Scene scene = wall();
     scene.lights = {rangedLight({40.0, 0.0, 3.0}, 39.8f)};
@@ -298,13 +298,13 @@ TEST_F(LightVolumes, aLightThatFloatsBeforeAllSurfacesIsNotVisited) {
     scene.lights = {rangedLight({0.0, 0.0, 1.0}, 0.9f), spotLight({0.3, 0.0, 2.0}, {0.0, 1.0, 0.0}, 0.5),
                     spotLight({0.0, 0.0, 1.5}, {0.0, 0.0, -1.0}, 0.2)};
     scene.lights[1].rangeMetres = 1.5f;
-    scene.lights[2].rangeMetres = 1.495f; // ends 5 mm before the wall, of which an eighth of a pixel is 1.2 mm
+    scene.lights[2].rangeMetres = 1.495f; // ends 5 mm before the wall, where an eighth of a pixel is 1.2 mm
     EXPECT_EQ(shareOf(scene).visited, 0);
 }
 
 TEST_F(LightVolumes, aLightWithoutEndVisitsEveryPixelOnce) {
     scenes::Scene scene = wall();
-    scene.cameras[0].fovYRadians = 0.4; // the wall goes on beyond the picture on every side
+    scene.cameras[0].fovYRadians = 0.4; // the wall extends beyond the image on every side
     scene.lights = {sunLight({0.0, 0.0, -1.0}, 3.0f)};
     EXPECT_EQ(shareOf(scene).visited, 240 * 160);
 }

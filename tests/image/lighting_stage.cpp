@@ -1,4 +1,4 @@
-// The G-buffer lit by compute shaders gives the picture that fragment shaders give.
+// Lighting the G-buffer in compute shaders gives the image of fragment shaders.
 
 #include <gmock/gmock.h>
 
@@ -20,7 +20,7 @@ protected:
             if (info.choosesStage) techniques.push_back(info.technique);
         return techniques;
     }
-    /// With those techniques. Forward's is pruned, which changes no bit (Invariance) and takes less to compile.
+    /// Compares these techniques with forward, which is pruned: that changes no bit (Invariance) and compiles faster.
     void expectForwardsPicture(engine::Renderer& renderer, frame::FrameSettings settings,
                                std::span<const Technique> techniques) {
         const bool prune = std::exchange(settings.prune, true);
@@ -44,7 +44,7 @@ TEST_F(LightingInCompute, picturesAreThoseOfForward) {
     }
 }
 
-/// With every technique, pruned and not; or pruned, with one in turn.
+/// With every technique, pruned and unpruned; or pruned, with one in turn.
 TEST_SWEEP_AS(LightingInCompute, aSceneOfEveryFeatureIsThePictureOfForward, LightingInComputeSlow,
               aSceneOfEveryFeatureIsThePictureOfForwardWithEveryTechnique) {
     const std::vector<Technique> techniques = choosing();
@@ -56,7 +56,7 @@ TEST_SWEEP_AS(LightingInCompute, aSceneOfEveryFeatureIsThePictureOfForward, Ligh
     for (const glm::ivec2 size : {glm::ivec2(160, 88), glm::ivec2(161, 91), glm::ivec2(7, 1)}) {
         SCOPED_TRACE(fmt::format("{}x{}", size.x, size.y));
         settings.sizePixels = size;
-        // One for all sizes, each of which shares its programs.
+        // One technique for all sizes, which share its programs.
         settings.prune = true;
         expectForwardsPicture(renderer, settings, inTurn(techniques, turn));
         if (!isWholeSweep()) continue;
@@ -65,8 +65,8 @@ TEST_SWEEP_AS(LightingInCompute, aSceneOfEveryFeatureIsThePictureOfForward, Ligh
     }
 }
 
-/// Every view of a scene of everything in every layout, or each sixth of its metal in one layout in turn; of
-/// channels of the G-buffer, which are not lit, then in `exact` alone.
+/// Every view of a scene of everything in every layout. In a short sweep every sixth of its metal in one layout in
+/// turn; views of G-buffer channels, which are unlit, only in `exact`.
 TEST_SWEEP_AS(LightingInCompute, everyViewIsExactlyThatOfFragmentShaders, LightingInComputeSlow,
               everyViewAndLayoutIsExactlyThatOfFragmentShaders) {
     const scenes::Scene scene = isWholeSweep() ? everythingScene() : metalScene();
@@ -78,7 +78,7 @@ TEST_SWEEP_AS(LightingInCompute, everyViewIsExactlyThatOfFragmentShaders, Lighti
             SCOPED_TRACE(fmt::format("{} {}", layout.name, view.name));
             frame::FrameSettings settings = withView(ofSize(97, 55), view.view);
             settings.layout = layout.layout;
-            settings.prune = !view.needsGBuffer; // a scene may not need the channel that is shown
+            settings.prune = !view.needsGBuffer; // pruning may drop the displayed channel
             const std::vector<float> truth = renderer.render(Technique::ClusteredDeferred, settings).radiance;
             settings.lightOn = frame::LightingStage::Compute;
             EXPECT_TRUE(renderer.render(Technique::ClusteredDeferred, settings).radiance == truth);

@@ -1,5 +1,5 @@
-// The meaning of texels for exponents, anisotropy, coats and sheens: pictures with a texture against the textbook's
-// value of the material that the texel stands for.
+// Texels of exponents, anisotropy, coats and sheens: images with a texture against the textbook value of the equivalent
+// material.
 #include <functional>
 
 #include "tests/image/FlatTest.h"
@@ -14,10 +14,10 @@ using scenes::MaterialModel;
 using scenes::Scene;
 using scenes::TextureSlot;
 
-/// Two dozen fp32 roundings of 2^-24 each, relative, and the exponents' share (docs/numerics.md).
+/// Two dozen relative fp32 roundings of 2^-24 each, and the error of exponents (docs/numerics.md).
 constexpr double kLobeRounding = 3e-6;
 
-/// The eye straight above, the sun aslant and not along an axis, so that a lobe's turn shows.
+/// The eye straight above, the sun oblique and off the axes, so that a rotated lobe shows.
 const glm::dvec3 kToSun = glm::normalize(glm::dvec3(0.35, 0.2, 1.0));
 
 class LobeValues : public FlatTest {
@@ -28,7 +28,7 @@ protected:
         EXPECT_GT(glm::length(wanted), 1e-4) << "there is nothing to see";
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], kLobeRounding * (1e-2 + wanted[c])) << c;
     }
-    /// A material with a texture of one texel looks like the material `equal` without it.
+    /// Expects a material with a texture of one texel to look like the material `equal` without it.
     void expectTexel(const Material& material, TextureSlot slot, const glm::vec4& texel, const Material& equal) {
         expectColor(texturedScene(underTheSun(material), slot, floatImage(texel)),
                     textbook::reflected(equal, {0, 0, 1}, kToSun, {0, 0, 1}));
@@ -70,7 +70,7 @@ Material brushedSteel() {
 TEST_F(LobeValues, theAnisotropyTextureTurnsByRedAndGreenAndWeakensByBlue) {
     const Material material = brushedSteel();
     const float angle = 0.5f;
-    // Not of unit length: only its direction counts.
+    // Not normalised: only its direction counts.
     const glm::vec4 texel(0.5f + 0.3f * std::cos(angle), 0.5f + 0.3f * std::sin(angle), 0.75f, 1.0f);
     expectTexel(material, TextureSlot::Anisotropy, texel, changed(material, [&](Material& m) {
                     m.anisotropyRotationRadians += angle;
@@ -94,7 +94,7 @@ TEST_F(LobeValues, theDirectionTurnsWithItsNodeAndIsMirroredWithIt) {
     expectColor(scene, textbook::reflected(clockwise, {0, 0, 1}, kToSun, {0, 0, 1}));
 }
 
-/// A coat over nothing.
+/// A coat over a surface that reflects nothing.
 Material lacquer() {
     Material material = blackDielectric();
     material.specularFactor = 0.0f;
@@ -125,7 +125,7 @@ TEST_F(LobeValues, theCoatFollowsItsOwnNormalMapAndNeverThatBelow) {
                 textbook::reflected(material, half, kToSun, {0, 0, 1}));
 }
 
-/// Each map with vectors is turned by its own transform, whichever of them the tangents follow.
+/// Each vector map is rotated by its own transform, whichever map the tangents follow.
 TEST_F(LobeValues, aTransformOfOneMapDoesNotRotateAnother) {
     const scenes::TextureTransform mirrored{{}, {1, -1}, 0.0f}, quarter{{}, {1, 1}, glm::radians(90.0f)};
     const glm::dvec3 tilted = glm::normalize(glm::dvec3(0.3, -0.2, 1.0));

@@ -1,4 +1,4 @@
-// Pixels that show other triangles than the reference: excluded where rounding explains it, else lost geometry by name.
+// Pixels with other triangles than the reference: excluded if rounding explains them, else lost geometry by name.
 
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ using validation::LostKind;
 using validation::ShownTriangles;
 using namespace test;
 
-/// Shaders that move one mesh instance out of the picture, counted from 0.
+/// Shaders that move one mesh instance out of the image, counted from 0.
 class Without : public ShaderMutant {
 public:
     explicit Without(std::uint32_t instance) {
@@ -35,8 +35,8 @@ protected:
         return validation::shownTriangles(renderer, settings, ids);
     }
 
-    /// Drops every instance of a scene in turn, or each third. Each that the reference sees must be named as missing
-    /// from about as many pixels, before all others; one that it does not see loses nothing.
+    /// Drops every instance of a scene in turn, or every third. An instance visible to the reference must be reported
+    /// first, as missing from about as many pixels; a hidden one loses nothing.
     void expectEveryInstanceNamed(const scenes::Scene& scene, const frame::FrameSettings& settings) {
         const std::vector<reference::Ids> ids = validation::referencePicture(scene, settings).ids;
         std::uint32_t count = 0;
@@ -48,12 +48,12 @@ protected:
             const auto opaque = std::count_if(ids.begin(), ids.end(),
                                               [&](const reference::Ids& own) { return own.object == instance + 1; });
             const ShownTriangles found = shown(scene, settings, ids, Without(instance).tree());
-            // Hidden; or of so few pixels that all may lie within 1/128 of one from its edge.
+            // Hidden, or so few pixels that all may lie within 1/128 of one from its edge.
             if (opaque <= 2 && found.lost.empty()) continue;
             ASSERT_FALSE(found.lost.empty()) << opaque << " pixels show it";
             EXPECT_EQ(found.lost.front().kind, LostKind::Missing);
             EXPECT_EQ(found.lost.front().instance, instance) << validation::lostText(found.lost.front());
-            // All but its edge, within 1/128 of a pixel of which 1 in 30 centres may lie.
+            // All but its edge: 1 in 30 centres may lie within 1/128 of a pixel of it.
             EXPECT_GE(double(found.lost.front().pixels), 0.9 * double(opaque) - 1.0);
             ++seen;
         }
@@ -94,7 +94,7 @@ TEST_F(LostGeometryTest, compareNeverHoldsWhereAnInstanceOfTheHallIsDropped) {
     EXPECT_GE(seen, 3u);
 }
 
-/// The stress floor, seen straight from above, with a mesh 10 cm above it. Metres are pixels / (height / 2).
+/// The stress floor viewed straight from above, with a mesh 10 cm above it. Metres are pixels / (height / 2).
 scenes::Scene floorWith(scenes::Mesh above) {
     namespace builtin = scenes::builtin;
     scenes::Scene scene = validation::stressFloor();
@@ -116,7 +116,7 @@ TEST_F(LostGeometryTest, anInstanceOfOnePixelThatIsDroppedIsNamed) {
     ASSERT_EQ(found.lost.size(), 1u);
     EXPECT_EQ(validation::lostText(found.lost.front()),
               "instance 1 (node 'speck', mesh 'square') is missing from 1 pixel, such as 16,16");
-    // The other way round: it grows over eight pixels that show the floor.
+    // The inverse: it grows over eight pixels that show the floor.
     ShaderMutant larger;
     larger.replace("passes/geometry.vert", "gl_Position = clip;",
                    "gl_Position = drawNormal2.w == 2.0 ? clip * vec4(3.0, 3.0, 1.0, 1.0) : clip;");
@@ -155,7 +155,7 @@ TEST_F(LostGeometryTest, aMeshThatFillsThePictureAndIsDroppedIsNamed) {
     EXPECT_EQ(std::count(found.excluded.begin(), found.excluded.end(), 1), 0);
 }
 
-/// Wires from a pixel down to 1/500 of one: a wire that only one of the two shows is rounding, with any background.
+/// Wires as wide as a pixel down to 1/500 of one: a wire in only one of the two images is rounding, on any background.
 TEST_F(LostGeometryTest, sliversThatOnlyOneOfTheTwoShowsNeverCountAsLost) {
     constexpr int kSide = 256;
     constexpr double kPixel = 2.0 / kSide;
@@ -191,14 +191,14 @@ TEST_F(LostGeometryTest, holesOfMasksThatHardwareFiltersNeverCountAsLost) {
     EXPECT_TRUE(shown(scene, settings, validation::referencePicture(scene, settings).ids).lost.empty());
 }
 
-/// The driver's choice is where a hole ends, not whether there is a mask.
+/// Drivers may move the border of a hole, but not drop the mask.
 TEST_F(LostGeometryTest, aMaskThatHardwareFiltersIsNamedWhereItIsDropped) {
     frame::FrameSettings settings = exactOfSize(96, 54);
     settings.filter = frame::TextureFilter::Hardware;
     expectEveryInstanceNamed(everythingScene(), settings);
 }
 
-/// Which of two triangles in one place is seen is up to the order of drawing.
+/// The drawing order decides which of two coplanar triangles is visible.
 TEST_F(LostGeometryTest, trianglesInOnePlaceAreComparedWithTheOneThatIsShown) {
     for (const bool swapped : {false, true}) {
         scenes::Mesh square;

@@ -29,7 +29,7 @@ protected:
     }
 };
 
-/// As blackDielectric() has it with the widest lobe: the radiance is F0 / (4 pi).
+/// blackDielectric() with the widest lobe: the radiance is F0 / (4 pi).
 Material blackMicrofacet() {
     Material material = blackDielectric();
     material.model = MaterialModel::Microfacet;
@@ -68,7 +68,7 @@ TEST_F(MaterialValues, aDielectricReflectsItsF90TheMoreTheLowerTheSunStands) {
             const Scene plain = underTheSun(material, {-std::sin(angle), 0.0, -nl});
             const glm::dvec3 wanted(f * nl / (2.0 * pi * (1.0 + nl)));
             expectColor(plain, wanted);
-            // Where colours vary, other channels hold the surface.
+            // With varying colours, other channels store the surface.
             expectColor(texturedScene(plain, TextureSlot::BaseColor, uniformImage({0, 0, 0, 255})), wanted);
         }
 }
@@ -126,7 +126,7 @@ TEST_F(MaterialValues, opacityBeyondZeroAndOneIsHeldToThem) {
     EXPECT_EQ(blended(-1.0f), scene.background);
 }
 
-/// A unit vector, and the texel that stands for it.
+/// A unit vector, and its texel.
 const glm::dvec3 kTilted = glm::normalize(glm::dvec3(0.4, 0.2, 1.0));
 scenes::Image tiltedImage() {
     return floatImage(glm::vec4(glm::vec3(kTilted * 0.5 + 0.5), 1.0f));

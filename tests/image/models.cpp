@@ -31,7 +31,7 @@ std::vector<std::filesystem::path> modelsBelow(const std::filesystem::path& fold
 
 constexpr const char* kSunName = "sun of the test";
 
-/// Where a model brings no light: a studio, whose programs take long to compile, or a lamp along the view.
+/// Light for models without any: a studio, whose programs take long to compile, or a sun along the view.
 enum class LitBy { Studio, Sun };
 
 void addSun(scenes::Scene& scene) {
@@ -42,7 +42,7 @@ void addSun(scenes::Scene& scene) {
     sun.directionWS = -glm::dvec3(scene.cameras[0].worldFromCamera[2]);
 }
 
-/// The scene from the opposite side: for surfaces that all turn their backs to the supplied camera.
+/// The scene from the opposite side, for surfaces that all face away from the default camera.
 scenes::Scene fromBehind(scenes::Scene scene) {
     const scenes::Box3 bounds = scenes::worldBounds(scene);
     const glm::dvec3 centerWS = 0.5 * (bounds.min + bounds.max);
@@ -154,7 +154,7 @@ private:
 
 using ModelsSlow = Models;
 
-/// Share of the covered pixels of a model's first picture that a display shows as black: codes below 0.02.
+/// Fraction of the covered pixels of a model's first image that are displayed as black: codes below 0.02.
 double blackShare(gpu::Context& context, const scenes::LoadOptions& options) {
     const scenes::Scene scene = scenes::loadScene((ownModelsFolder() / "three_metals.gltf").string(), options);
     engine::ViewRequest request;
@@ -200,12 +200,12 @@ TEST_F(ModelsSlow, everyModelOfTheAssetsFolderOrTheRepositoryIsDrawnAlikeByForwa
     sweep(sweptFolder(), LitBy::Studio);
 }
 
-/// OBJ models as people's programs write them, as pixels.
+/// OBJ models as common programs write them, compared by pixels.
 class ObjModels : public ImageTest {
 protected:
     static constexpr int kSide = 64;
 
-    /// The model seen by the supplied camera, unlit: an MTL file of this material stands beside it.
+    /// Renders the model unlit with the default camera, with this material in its MTL file.
     std::vector<float> shown(const std::string& mtl, const std::string& obj, const scenes::ImportWishes& wishes = {}) {
         folder_.write("m.mtl", "newmtl m\nillum 0\n" + mtl);
         scenes::LoadOptions options;
@@ -281,7 +281,7 @@ TEST_F(ObjModels, polygonsOfManyCornersCoverTheirArea) {
     }
     const std::size_t square = litPixels(shown("Kd 1 1 1\n", kQuad));
     const std::size_t round = litPixels(shown("Kd 1 1 1\n", disc + face + "\n"));
-    // Both fill the picture alike; pixels at the edge are in or out.
+    // Both fill the image alike; pixels at the edge are in or out.
     EXPECT_NEAR(double(round) / double(square), std::numbers::pi / 4.0, 0.03);
 }
 

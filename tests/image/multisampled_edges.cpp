@@ -1,4 +1,4 @@
-// Which share of a pixel's samples edges cover.
+// The fraction of a pixel's samples that edges cover.
 
 #include "engine/ChooseSamples.h"
 #include "tests/image/FlatTest.h"
@@ -29,7 +29,7 @@ TEST_F(MultisampledEdges, aMaskedEdgeCoversAsManySamplesAsItsAlphaSays) {
     if (context().capabilities().samplePlaces.back().size() == 1)
         GTEST_SKIP() << "this driver has no multisampled render targets";
     for (const Technique technique : {Technique::Forward, Technique::ForwardPrepass, Technique::ClusteredForward}) {
-        // Away from the steps between two numbers of samples, by more than rounding.
+        // Away from the steps between two sample counts, by more than rounding.
         for (const double share : {0.05, 0.3, 0.55, 0.8, 0.95}) {
             SCOPED_TRACE(share);
             // Alpha is (x + 1/2) / 8 at the centre of column x, so the sharpened alpha is x + 1 - 8 cutoff.
@@ -57,7 +57,7 @@ TEST_F(MultisampledEdges, alphaThatEqualsItsCutoffEverywhereIsWhole) {
         scene.meshes[0].colors.assign(4, {1, 1, 1, cutoff});
         EXPECT_EQ(alphasOf(picture(scene, sampled({8, 8}))), std::set<float>{1.0f}) << cutoff;
     }
-    // Without a least alpha nothing is ever cut out, however steep alpha is.
+    // With a cutoff of 0 nothing is cut out, however steep alpha is.
     Scene stripes = texturedScene(rampScene(0.0f), scenes::TextureSlot::BaseColor, image8([](int x, int) {
                                       return std::array<int, 4>{255, 255, 255, x % 2 == 0 ? 0 : 255};
                                   }));
@@ -74,8 +74,7 @@ TEST_F(MultisampledEdges, aStraightEdgeCoversTheSamplesOnItsSide) {
     scenes::Material paint = unlit({0.5f, 0.25f, 1.0f, 1.0f});
     for (int axis = 0; axis < 2; ++axis) {
         std::set<float> ladder;
-        // Sixteenths: the rasteriser's grid holds them exactly, and no sample of a common pattern lies on one of odd
-        // numerator.
+        // Odd sixteenths: the rasteriser's grid represents them exactly, and no sample of a common pattern lies on one.
         for (int sixteenth = 1; sixteenth < 16; sixteenth += 2) {
             Scene scene = quadScene(paint);
             makeOrthographic(scene.cameras[0], 1.0);

@@ -18,7 +18,7 @@ using namespace test;
 
 class Multisampling : public MultisamplingTest {
 protected:
-    /// Programs are compiled once per renderer, for all sizes. With the technique of a turn (Sweep.h).
+    /// A renderer compiles its programs once for all sizes. `turn` selects one technique (Sweep.h).
     void expectAgreement(engine::Renderer& renderer, const frame::FrameSettings& settings,
                          std::optional<std::size_t> turn = {}) {
         validation::CompareRequest request;
@@ -43,8 +43,8 @@ TEST_F(MultisamplingSlow, hallIsExactlyTheSameInTheForwardFamily) {
     for (const glm::ivec2 size : {glm::ivec2(208, 116), glm::ivec2(209, 117)}) expectAgreement(renderer, sampled(size));
 }
 
-/// Of a scene of everything, with options added one by one, or before the first and after the last of those whose
-/// programs are pruned (pruningAndRunningAgainNeverChangeABit has the others), with one technique and size in turn.
+/// A scene of everything, with options added one by one. A short sweep takes the first and the last of those with
+/// pruned programs (pruningAndRunningAgainNeverChangeABit has the others), with one technique and size in turn.
 TEST_SWEEP(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily) {
     using Settings = frame::FrameSettings;
     constexpr void (*kAddOption[])(Settings&) = {
@@ -74,10 +74,10 @@ TEST_SWEEP(Multisampling, aSceneOfEveryFeatureIsExactlyTheSameInTheForwardFamily
     expectAgreement(flatRenderer, sampled(isWholeSweep() ? kAllSizes[1] : kSizesInTurn[1]), turn);
 }
 
-/// Of random scenes, with every technique, culling method and tile, or some with every ninth of these in turn. Its
-/// subject is which lights a pixel has, so the scene of everything is then one in Lambert materials.
+/// Random scenes with every technique, culling method and tile size; a short sweep takes every ninth of these in turn.
+/// The subject is which lights a pixel has, so the scene of everything is then one in Lambert materials.
 TEST_SWEEP(Multisampling, everyCullingMethodAndTileGivesExactlyForwardsPicture) {
-    constexpr std::size_t kTurns = 9; // odd, so that turns go through the tiles, of which there are four
+    constexpr std::size_t kTurns = 9; // odd, so that turns go through all four tile sizes
     std::vector<Scene> lit{isWholeSweep() ? everythingScene() : lambertScene(), columnsBeforeWall(200)};
     for (std::uint64_t seed = 1; seed <= (isWholeSweep() ? 24 : 3); ++seed) {
         const Scene scene = randomLitScene(seed);
@@ -92,8 +92,8 @@ TEST_SWEEP(Multisampling, everyCullingMethodAndTileGivesExactlyForwardsPicture) 
         engine::Renderer renderer(context(), lit[i]);
         frame::FrameSettings settings = sampled(i < 2 ? glm::ivec2(201, 115) : glm::ivec2(97, 61), i % 2 == 0 ? 4 : 2);
         settings = engine::settingsOn(context().capabilities(), settings);
-        // Without pruning all scenes share their programs, however large ones; with every kind of light they do with
-        // it.
+        // Without pruning all scenes share their programs, though these are large. With every kind of light they share
+        // pruned ones too.
         settings.prune = !isWholeSweep() || i % 4 == 0;
         std::vector<Case> cases;
         for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
@@ -116,7 +116,7 @@ TEST_SWEEP(Multisampling, everyCullingMethodAndTileGivesExactlyForwardsPicture) 
     }
 }
 
-/// A floor to the horizon, which crosses the middle of the picture, and lights that end far beyond it.
+/// A floor up to the horizon, which crosses the middle of the image, and lights whose ranges end far beyond it.
 Scene endlessFloor(scenes::AlphaMode alphaMode) {
     scenes::Material paint = lambert();
     paint.alphaMode = alphaMode;
@@ -141,7 +141,7 @@ TEST_F(Multisampling, aSurfaceWhosePixelCentreLiesBeyondTheHorizonHasItsLights) 
         for (const double pitch : {0.0, 0.01, -0.02}) {
             scene.cameras[0].worldFromCamera[1] = {0, std::cos(pitch), -std::sin(pitch), 0};
             scene.cameras[0].worldFromCamera[2] = {0, std::sin(pitch), std::cos(pitch), 0};
-            // A tile of one row of pixels, those that the horizon crosses, has nothing but them to list lights for.
+            // A tile of one row of pixels, on the horizon, lists lights only for these.
             for (const glm::ivec2 size : {glm::ivec2(65, 17), glm::ivec2(65, 1)}) {
                 engine::Renderer renderer(context(), scene);
                 frame::FrameSettings settings = engine::settingsOn(context().capabilities(), sampled(size));
@@ -161,8 +161,8 @@ TEST_F(Multisampling, aSurfaceWhosePixelCentreLiesBeyondTheHorizonHasItsLights) 
     }
 }
 
-/// The ray through such a pixel's centre runs along the floor and never meets it, so the coordinates of a corner stand
-/// in, which do not change from pixel to pixel (lib/surface/triangle.glsl).
+/// The ray through such a pixel's centre is parallel to the floor and never meets it. The texture coordinates of a
+/// corner are used instead, which do not change from pixel to pixel (lib/surface/triangle.glsl).
 TEST_F(Multisampling, aPixelWhoseCentreLiesOnTheHorizonTakesOneTexelOfACornerWithTheExactFilter) {
     Scene scene = endlessFloor(scenes::AlphaMode::Opaque);
     scene.lights.clear();
@@ -191,7 +191,7 @@ TEST_SWEEP(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
         SCOPED_TRACE(view.name);
         frame::FrameSettings settings = sampled({161, 90});
         settings.view = view.view;
-        if (view.ofTechnique) continue; // shows what each technique visits
+        if (view.ofTechnique) continue; // differs by technique
         if (!isWholeSweep() && turn++ % 4 != 0) continue;
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         for (const Technique technique : inTurn(kOthers, turn / 4))
@@ -199,7 +199,7 @@ TEST_SWEEP(Multisampling, everyViewIsExactlyTheSameInTheForwardFamily) {
     }
 }
 
-/// Each scene with every technique, or the metal of everything with the one that culls.
+/// Each scene with every technique, or the metal of everything with the culling technique.
 TEST_SWEEP_AS(Multisampling, pruningAndRunningAgainNeverChangeABit, MultisamplingSlow,
               pruningAndRunningAgainNeverChangeABitWithAnyTechnique) {
     std::vector<Scene> tried{metalScene()};
@@ -216,11 +216,11 @@ TEST_SWEEP_AS(Multisampling, pruningAndRunningAgainNeverChangeABit, Multisamplin
         }
 }
 
-/// With every technique, or the one that culls.
+/// With every technique, or the culling one.
 TEST_SWEEP_AS(Multisampling, aPixelIsNotNaNInfiniteOrNegative, MultisamplingSlow,
               aPixelIsNotNaNInfiniteOrNegativeWithAnyTechnique) {
-    // A floor to the horizon and beyond what fp32 squares, under a light without range: pixels' centres lie above the
-    // horizon where samples do not. Slivers with steep colours: pixels' centres lie outside most triangles.
+    // A floor up to the horizon, at distances whose squares overflow fp32, under a light without range: pixel centres
+    // lie above the horizon where samples do not. Slivers with steep colours: pixel centres lie outside most of them.
     Scene scene = everythingScene();
     scene.nodes[0].parentFromNode = glm::dmat4(1e7) * scene.nodes[0].parentFromNode;
     scene.nodes[0].parentFromNode[3] = {0, -1, 0, 1};

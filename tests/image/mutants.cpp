@@ -1,5 +1,5 @@
-// Shaders with one fault each. All techniques share their lighting, so that comparing them with each other sees none of
-// these; the stability suite, which compares with formulas in double precision, must see every one.
+// Shaders with one fault each. All techniques share their lighting, so comparing them with each other detects none of
+// these; the stability suite, which compares with formulas in double precision, must detect every one.
 #include <iterator>
 #include <set>
 
@@ -21,7 +21,7 @@ struct Mutant {
     const char* file; ///< below shaders/
     const char* from;
     const char* to;
-    const char* seenBy; ///< the case that must miss
+    const char* seenBy; ///< the case that must fail
 };
 
 constexpr Mutant kMutants[] = {
@@ -128,8 +128,8 @@ TEST_SWEEP(Mutants, everyFaultIsDetectedByItsCase) {
     }
 }
 
-/// A tolerance, a weight or a scale so wide that nothing can fail shows here: no case holds with half the signal, and
-/// of pictures none does.
+/// Detects a tolerance, weight or scale so wide that nothing can fail: no case passes with half the signal, and none of
+/// its images does.
 TEST_SWEEP(Mutants, everyCaseFailsWhereItsMeasuredQuantityIsHalved) {
     validation::StressRequest request;
     request.techniques = {Technique::Forward};
@@ -146,7 +146,7 @@ TEST_SWEEP(Mutants, everyCaseFailsWhereItsMeasuredQuantityIsHalved) {
         for (std::size_t i = 0; i < count; ++i) {
             validation::StressCase one = row;
             one.name += ": " + pictures[i].what;
-            // A picture that is compared with an earlier one brings that along, which counts for itself already.
+            // An image that is compared with an earlier one would include that one, which is tested by itself.
             one.pictures = [pictures, i](validation::StressEffort) {
                 std::vector<validation::StressPicture> alone{pictures[i]};
                 alone.front().sameAs.reset();
@@ -163,7 +163,7 @@ TEST_SWEEP(Mutants, everyCaseFailsWhereItsMeasuredQuantityIsHalved) {
     }
 }
 
-/// Else a case that never holds would see every fault.
+/// A case that always fails would detect every fault.
 TEST_F(Mutants, shadersWithoutAFaultHoldEachOfTheirCases) {
     std::vector<std::string> cases;
     for (const Mutant& mutant : kMutants) cases.emplace_back(mutant.seenBy);
@@ -173,7 +173,7 @@ TEST_F(Mutants, shadersWithoutAFaultHoldEachOfTheirCases) {
         EXPECT_TRUE(result.ok()) << result.name << ": " << testing::PrintToString(result.missed());
 }
 
-/// Why the suite is needed: techniques that share a fault agree.
+/// Shows that the suite is needed: techniques that share a fault agree.
 TEST_F(Mutants, techniquesAgreeOnAFaultTheyShare) {
     const ShaderMutant shaders("lib/maths/math.glsl", "kPi = 3.14159265358979323846", "kPi = 3.17300858");
     const scenes::Scene scene = validation::stressScene();
@@ -184,11 +184,10 @@ TEST_F(Mutants, techniquesAgreeOnAFaultTheyShare) {
     EXPECT_TRUE(validation::compareTechniques(renderer, context().capabilities(), request).record.ok());
 }
 
-/// The stability suite itself: in its short form every day, in full where slow tests run.
+/// The stability suite: its short form by default, in full where slow tests run.
 class Stress : public ImageTest {
 protected:
-    /// Of these cases those that draw pictures are drawn with `techniques` techniques, for each case the next ones in
-    /// turn.
+    /// Runs the cases; those that draw images use `techniques` techniques, for each case the next ones in turn.
     validation::StressRecord run(const std::vector<validation::StressCase>& cases, validation::StressEffort effort,
                                  std::size_t techniques) {
         validation::StressRecord record{context().capabilities().renderer, effort, {}};
@@ -220,7 +219,7 @@ protected:
         return results;
     }
 
-    /// With every eighth picture of its short form, and those that these are compared with.
+    /// With every eighth image of its short form, and those that these are compared with.
     static validation::StressCase withFewerPictures(validation::StressCase row) {
         if (!row.pictures) return row;
         std::vector<validation::StressPicture> all = row.pictures(validation::StressEffort::Quick), some;

@@ -1,5 +1,5 @@
-// A ball of one paint in the coarse layouts: in any colour it is as bright as in fp32. Rough enough that what is
-// of second order in alpha's step stays below: 0.5 in perceptual roughness, half of that where a texture varies it.
+// A ball of one paint is as bright in coarse layouts as in fp32, in any colour. Rough enough that second-order effects
+// of alpha's step stay below the limit: perceptual roughness 0.5, half of that where a texture varies it.
 
 #include "tests/image/ImageTest.h"
 #include "tests/support/Random.h"
@@ -21,7 +21,7 @@ scenes::Material randomPaint(Random& random) {
     return paint;
 }
 
-/// Colours, roughness and metallic that change over the surface, each its own way.
+/// Varies colours, roughness and metallic over the surface, independently.
 void vary(scenes::Scene& scene, Random& random) {
     for (const scenes::TextureSlot slot : {scenes::TextureSlot::BaseColor, scenes::TextureSlot::MetallicRoughness}) {
         scenes::Image& image = scene.images.emplace_back();
@@ -66,7 +66,7 @@ TEST_F(OnePaint, aBallIsAsBrightInACoarseLayoutAsInFp32) {
     }
 }
 
-/// A step of alpha, relative to it, where it is stored in so many bits: equal steps of its fourth root.
+/// A step of alpha relative to alpha, if stored in so many bits as equal steps of its fourth root.
 double stepOfAlpha(float alpha, int bits) {
     return 4.0 * (1.0 - std::pow(1e-3, 0.25)) / ((1 << bits) - 1) / std::pow(double(alpha), 0.25);
 }
@@ -74,12 +74,12 @@ double stepOfAlpha(float alpha, int bits) {
 scenes::Material polishedBlack(float alpha) {
     scenes::Material polished = materialOf(scenes::MaterialModel::Microfacet, {0.0f, 0.0f, 0.0f, 1.0f});
     polished.alpha = alpha;
-    polished.ior = 1.5f; // which fields hold exactly
+    polished.ior = 1.5f; // which the G-buffer stores exactly
     return polished;
 }
 
-/// Radiance goes at most with 1/alpha^2, in the peak, or with alpha^2, far from it; so a step of alpha changes it by
-/// two steps, relative to alpha. A normal of 15 bits adds what it turns a highlight by, up to 1.5/alpha a radian.
+/// Radiance scales at most with 1/alpha^2, in the peak, or with alpha^2, far from it; so a step of alpha changes it by
+/// two relative steps. A 15-bit normal adds the rotation of the highlight, up to 1.5/alpha per radian.
 TEST_F(OnePaint, aNarrowHighlightIsNoMoreThanAStepOff) {
     for (const float alpha : {0.0300f, 0.0551f, 0.0800f}) {
         const scenes::Scene scene = ballOf(polishedBlack(alpha));
@@ -92,12 +92,12 @@ TEST_F(OnePaint, aNarrowHighlightIsNoMoreThanAStepOff) {
         const double step = stepOfAlpha(alpha, 11), turned = 1.5 / double(alpha) * 2.0 / 32767.0;
         fmt::print("alpha {}: max {:.2e}, p99 {:.2e}, a step is {:.2e}, turned {:.2e}\n", alpha, figures.maxRel,
                    figures.p99Rel, step, turned);
-        EXPECT_LE(figures.p99Rel, 2.0 * step + turned); // a few pixels at the terminator are off by their normals
+        EXPECT_LE(figures.p99Rel, 2.0 * step + turned); // normals are off in a few pixels at the terminator
         EXPECT_GT(figures.p99Rel, 0.0);
     }
 }
 
-/// A floor whose highlight is not in the picture has the same error of alpha in all of it.
+/// A floor whose highlight is outside of the image has the same error of alpha everywhere.
 TEST_F(OnePaint, aHighlightBesideThePictureIsAsBrightInTheMean) {
     for (const float alpha : {0.0123f, 0.0307f, 0.0551f, 0.0999f}) {
         scenes::Scene scene = quadScene(polishedBlack(alpha));
@@ -114,18 +114,18 @@ TEST_F(OnePaint, aHighlightBesideThePictureIsAsBrightInTheMean) {
             const double step = stepOfAlpha(alpha, bits);
             fmt::print("alpha {}, {}: bias {:+.1e}, p99 {:.1e}, a step is {:.1e}\n", alpha, layout.name, figures.bias,
                        figures.p99Rel, step);
-            // alpha^2 has a second derivative, and a dithered value at most a quarter of the square of a step as its
-            // variance. The mean over 16384 pixels adds 1e-4; of slim the normal's 10 bits add 1e-3.
+            // alpha^2 has a second derivative, and a dithered value a variance of at most a quarter of a step's square.
+            // The mean over 16384 pixels adds 1e-4; the 10-bit normals of slim add 1e-3.
             EXPECT_LE(std::abs(figures.bias), 0.25 * step * step + (place == 1 ? 1e-4 : 1e-3));
         }
     }
 }
 
-/// A streak covers much of the ball, so its steps are not few pixels' as a round highlight's are.
+/// A streak covers much of the ball, so its steps affect more pixels than those of a round highlight.
 TEST_F(OnePaint, aStreakOnABallKeepsThePromiseOfEveryCoarseLayout) {
     for (const auto& [along, across] : {std::pair(0.5f, 0.02f), std::pair(0.5f, 0.08f), std::pair(0.16f, 0.5f)}) {
         scenes::Material brushed = materialOf(scenes::MaterialModel::MicrofacetAnisotropic,
-                                              {0.0f, 0.0f, 0.0f, 1.0f}); // all of the picture is highlight
+                                              {0.0f, 0.0f, 0.0f, 1.0f}); // only the highlight reflects
         brushed.alpha = along;
         brushed.alphaY = across;
         brushed.ior = 2.5f;

@@ -14,7 +14,7 @@ using namespace test;
 
 class Parity : public ImageTest {
 protected:
-    /// Programs are compiled once for a renderer, whatever the size.
+    /// A renderer compiles its programs once for all sizes.
     validation::CompareRecord compare(engine::Renderer& renderer, const frame::FrameSettings& settings,
                                       std::vector<Technique> techniques = {}) {
         validation::CompareRequest request;
@@ -44,10 +44,10 @@ bool usesGBuffer(const std::string& technique) {
     return false;
 }
 
-/// One that tiles evenly and one that is odd both ways.
+/// One that tiles evenly and one that is odd in both dimensions.
 constexpr glm::ivec2 kSizes[] = {{640, 360}, {641, 359}};
 constexpr glm::ivec2 kOptionSizes[] = {{320, 180}, {321, 179}};
-constexpr glm::ivec2 kSmallSizes[] = {{128, 72}, {129, 71}}; ///< where they are taken in turn
+constexpr glm::ivec2 kSmallSizes[] = {{128, 72}, {129, 71}}; ///< for short sweeps
 
 TEST_SWEEP(Parity, everyBuiltinSceneIsExactlyTheSameWithEveryTechnique) {
     std::size_t turn = 0;
@@ -85,13 +85,13 @@ TEST_F(Parity, picturesPackedAlikeAreHeldToEveryBitAndOthersToThePromise) {
     }
 }
 
-/// Where not all are compared: one of gloss and metal, and one of maps. Every material model and layer is what
-/// picturesPackedAlikeAreHeldToEveryBitAndOthersToThePromise shows.
+/// Scenes of a short sweep: one of gloss and metal, and one of texture maps.
+/// picturesPackedAlikeAreHeldToEveryBitAndOthersToThePromise covers every material model and layer.
 constexpr std::pair<std::string_view, std::string_view> kScenesOfLayouts[] = {{"spheres", "slim"},
                                                                               {"head_marble", "packed"}};
 
-/// Every layout with every technique, or two scenes of one layout each with `deferred`, whose G-buffer the other
-/// techniques share.
+/// Every layout with every technique. In a short sweep two scenes in one layout each with `deferred`, whose G-buffer
+/// the other techniques share.
 TEST_SWEEP_AS(Parity, everyCoarseLayoutKeepsItsPromiseAndAttributesItsError, ParitySlow,
               everyCoarseLayoutAlwaysKeepsItsPromiseWithEveryTechnique) {
     std::set<std::string_view> kept;
@@ -119,7 +119,7 @@ TEST_SWEEP_AS(Parity, everyCoarseLayoutKeepsItsPromiseAndAttributesItsError, Par
                 EXPECT_LE(std::abs(pair.figures.bias), layout.promise.bias);
                 EXPECT_LT(pair.figures.bitEqual, 1.0) << "a packed G-buffer that costs nothing was not used";
                 ASSERT_FALSE(pair.channels.empty());
-                // Errors of channels are independent of each other, near enough for their shares to make up the whole.
+                // Errors of channels are nearly independent, so that their parts sum to the whole.
                 double sum = 0.0;
                 for (const validation::ChannelShare& share : pair.channels) sum += share.share;
                 EXPECT_NEAR(sum, pair.figures.relMse, 0.3 * pair.figures.relMse);
@@ -130,8 +130,8 @@ TEST_SWEEP_AS(Parity, everyCoarseLayoutKeepsItsPromiseAndAttributesItsError, Par
     EXPECT_EQ(kept.size() + 1, frame::layoutTable().size()) << "a coarse layout was not used";
 }
 
-/// Of a scene of everything, with options added one by one. Or before the first and after the last of those whose
-/// programs are pruned (Invariance has the others), with one technique and one small size in turn.
+/// A scene of everything, with options added one by one. A short sweep takes the first and the last of those with
+/// pruned programs (Invariance has the others), with one technique and one small size in turn.
 TEST_SWEEP(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOption) {
     using Settings = frame::FrameSettings;
     constexpr void (*kAddOption[])(Settings&) = {
@@ -155,15 +155,15 @@ TEST_SWEEP(Parity, aSceneOfEveryFeatureIsExactlyTheSameWithEveryTechniqueAndOpti
     }
 }
 
-/// Of a scene of everything; or so only each sixth of those with a number, which show what lobes are made of, and
-/// of its metal those between and each sixth of the others.
+/// A scene of everything. In a short sweep only for every sixth view with a key, which show lobe terms; its metal for
+/// the others of these and for every sixth of the rest.
 TEST_SWEEP(Parity, everyViewIsExactlyTheSameInForwardAndDeferred) {
     const scenes::Scene everything = everythingScene(), metal = metalScene();
     engine::Renderer renderer(context(), everything), rendererOfMetal(context(), metal);
     std::size_t turn = 0, lobes = 0;
     for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
         SCOPED_TRACE(view.name);
-        if (view.ofTechnique) continue; // it shows the differences of techniques
+        if (view.ofTechnique) continue; // differs by technique
         const bool showsLobes = view.key != 0;
         const bool isInTurn = (showsLobes ? lobes : turn)++ % 6 == 0;
         if (!isWholeSweep() && !showsLobes && !isInTurn) continue;
@@ -198,8 +198,7 @@ TEST_F(Parity, aFarPlaneDoesNotChangeNearerSurfaces) {
     scene.cameras[0].farMetres = 60.0;
     const engine::RenderedFrame frame = frameOf(scene, settings);
     const Picture bounded{frame.width, frame.height, frame.radiance, std::vector<std::uint8_t>(161 * 90, 1)};
-    // Depth is stored on another scale, so positions move by its rounding: 1e-7 of the distance, and highlights with
-    // them.
+    // Depth is stored on another scale, so positions and highlights move by its rounding: 1e-7 of the distance.
     EXPECT_LE(validation::errorFigures(bounded, endless).relMse, 1e-8);
 }
 

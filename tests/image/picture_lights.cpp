@@ -1,4 +1,4 @@
-// What the viewer tells of the lights that a pixel visits.
+// The viewer's report of the lights that a pixel visits.
 #include "viewer/show/PictureLights.h"
 
 #include <set>
@@ -33,13 +33,13 @@ protected:
 
     static engine::ViewRequest request(Technique technique, frame::DebugView view, std::optional<Method> method = {}) {
         engine::ViewRequest asked{technique, {}};
-        asked.settings.sizePixels = {150, 85}; // of tiles that are cut off
+        asked.settings.sizePixels = {150, 85}; // with partial tiles
         asked.settings.view = view;
         asked.settings.culling.method = method;
         return asked;
     }
 
-    /// By pixel, rows from the top, as far as visitsOf() asks: transparent ones too.
+    /// Nearest surfaces by pixel, rows from the top, transparent ones too, with the fields that visitsOf() reads.
     static NearestSurfaces nearestSurfaces(engine::Renderer& renderer, const scenes::Scene& scene) {
         std::vector<viewer::InspectedSurface> ofInstances;
         for (const scenes::Node& node : scene.nodes)
@@ -61,7 +61,7 @@ protected:
         return surfaces;
     }
 
-    /// `shown` is a picture of the view `lights`.
+    /// Compares with `shown`, an image of the view `lights`.
     static void expectShown(const PictureLights& lights, const engine::RenderedFrame& shown,
                             const NearestSurfaces& surfaces, bool culls) {
         std::set<std::size_t> counts;
@@ -128,8 +128,8 @@ TEST_F(PictureLightsTold, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShow
     }
 }
 
-/// Of Lambert materials, and the lit picture with one technique, unless the sweep is whole: compiling takes most of
-/// the time, and lists know nothing of lobes.
+/// In a short sweep Lambert materials, and the lit image with one technique: compilation takes most of the time, and
+/// lists do not depend on lobes.
 TEST_SWEEP(PictureLightsTold, ofLightsOfEveryTypeOnlyOpaqueSurfacesTellTheirVisits) {
     const scenes::Scene scene = withAreaLights(isWholeSweep() ? everythingScene() : lambertScene());
     engine::Renderer renderer(context(), scene);

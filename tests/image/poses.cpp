@@ -14,8 +14,8 @@ using engine::Technique;
 using frame::ShadowFilter;
 using namespace test;
 
-/// The scene with the first instance of every node skinned to a joint of its own below that node, which a clip turns
-/// and moves within a second while a morph target swells the mesh.
+/// Skins the first instance of every node to a new joint below that node. A clip rotates and moves the joint within a
+/// second while a morph target inflates the mesh.
 scenes::Scene waving(scenes::Scene scene) {
     scenes::Rig& rig = scene.rig;
     scenes::Clip& clip = rig.clips.emplace_back();
@@ -61,7 +61,7 @@ scenes::Scene waving(scenes::Scene scene) {
 class Poses : public ShadowTest {};
 using PosesSlow = Poses;
 
-/// Of a scene of everything or, unless the sweep is a whole one, of a ball under a sun, whose programs are small.
+/// A scene of everything or, in a short sweep, a ball under a sun, whose programs are small.
 TEST_SWEEP(Poses, areDrawnAsByANewRendererWithoutCompilingAnything) {
     for (const auto& [filter, times] : std::vector<std::pair<ShadowFilter, std::vector<double>>>{
              {ShadowFilter::Traced, {1.0, 0.4}}, {ShadowFilter::Hard, {0.4}}}) {
@@ -69,7 +69,7 @@ TEST_SWEEP(Poses, areDrawnAsByANewRendererWithoutCompilingAnything) {
         scenes::Scene scene = waving(isWholeSweep() ? everythingScene() : ballUnderSun());
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = withShadows(ofSize(160, 91), filter);
-        // Else which lights reach what is in view decides on programs too; a sun reaches all.
+        // Else programs also depend on which lights reach visible surfaces; a sun reaches all.
         settings.prune = !isWholeSweep();
         const std::vector<float> before = renderer.render(Technique::Forward, settings).radiance;
         const std::size_t programs = renderer.programs().size();
@@ -87,14 +87,14 @@ TEST_SWEEP(Poses, areDrawnAsByANewRendererWithoutCompilingAnything) {
     }
 }
 
-/// The scene as meshes that stand where the pose has them, which nothing moves.
+/// The scene with its posed meshes as static ones.
 scenes::Scene asPlainMeshes(scenes::Scene scene) {
     scene.rig = {};
     scenes::checkScene(scene);
     return scene;
 }
 
-/// To the last bit of depth, in shadows and in ids too, so that passes which ask for equal depth lose no pixel.
+/// Bit-identical depth, in shadows and in ids too, so that passes that test for equal depth lose no pixel.
 TEST_SWEEP(Poses, everyPassHasTheVerticesOfPlainMeshes) {
     scenes::Scene scene = waving(isWholeSweep() ? everythingScene() : ballUnderSun());
     engine::Renderer renderer(context(), scene);
@@ -115,7 +115,7 @@ TEST_SWEEP(Poses, everyPassHasTheVerticesOfPlainMeshes) {
                 << int(filter);
         }
         const std::vector<float> depths = truth.downloadDepth();
-        frame::FrameSettings asAtlas = settings; // depths as lights see them
+        frame::FrameSettings asAtlas = settings; // depths from the lights
         asAtlas.view = frame::DebugView::ShadowAtlas;
         const std::vector<float> atlas = truth.render(Technique::Forward, asAtlas).radiance;
         EXPECT_GT(std::ranges::count_if(atlas, [](float shown) { return shown > 0.0f && shown < 1.0f; }), 100);
@@ -151,8 +151,8 @@ TEST_SWEEP(Poses, everyTechniqueDrawsThemAlikeAndAsANewRenderer) {
     EXPECT_EQ(renderer.render(Technique::Forward, settings).radiance, drawn(scene, settings, Technique::Forward));
 }
 
-/// A ball of a checkered material without layers, of which a clip makes glass with all of them within a second, while
-/// it moves the texture and widens the lens.
+/// A ball of a checkered material without layers. Within a second a clip turns it into glass with all of them, moves
+/// the texture and widens the field of view.
 scenes::Scene transforming() {
     using scenes::AnimatedProperty;
     scenes::Scene scene = ballUnderSun();
@@ -233,7 +233,7 @@ TEST_F(Poses, aBillionSecondsBeforeAndAfterTheClipShowItsEnds) {
     EXPECT_NE(drawnAt(0.0), drawnAt(1.0));
 }
 
-/// What clips do not move costs what it costs without them.
+/// A scene that no clip moves costs the same as one without clips.
 TEST_F(PosesSlow, aSceneThatNothingMovesTakesThePassesAndTheTimeOfPlainMeshes) {
     scenes::Scene scene = waving(ballUnderSun());
     scenes::playClip(scene, "none");
@@ -250,7 +250,7 @@ TEST_F(PosesSlow, aSceneThatNothingMovesTakesThePassesAndTheTimeOfPlainMeshes) {
         points.push_back({one, Technique::ClusteredDeferred, settings});
     const std::vector<std::vector<double>> timesMs =
         validation::timeInTurn(points, {}, {.warmUpRounds = 3, .rounds = 60});
-    // Of frames that were drawn next to each other, so that a machine that changes its pace does not enter.
+    // Ratios of frames drawn one after the other, so that changes of the machine's pace cancel.
     const auto ratio = [&](std::size_t point) {
         std::vector<double> ratios;
         for (std::size_t round = 0; round < timesMs[0].size(); ++round)

@@ -1,4 +1,4 @@
-// The GPU's picture against the reference renderer's, pixel by pixel, with the same filtering on both sides.
+// GPU images against those of the reference renderer, pixel by pixel, with the same filtering on both sides.
 #include <filesystem>
 #include <iterator>
 #include <span>
@@ -19,10 +19,9 @@ using engine::Technique;
 using scenes::TextureSlot;
 using namespace test;
 
-/// The tolerances of a built-in scene on software rasterisers, at most ten times the measured figures
-/// (docs/reference.md has the figures): two to five times, for compilers that order operations otherwise. Each scene's
-/// own surfaces say why it is where it is: normal maps far away in hall, edge-on triangles in lattice, one model in
-/// every pixel of room.
+/// Tolerances of a built-in scene on software rasterisers, at most ten times the measured figures (docs/reference.md
+/// has the figures): two to five times, for compilers that order operations otherwise. The surfaces of each scene
+/// explain them: distant normal maps in hall, edge-on triangles in lattice, one material model in every pixel of room.
 struct SceneBars {
     const char* scene;
     int width, height;
@@ -35,7 +34,7 @@ constexpr SceneBars kSmallBars[] = {
     {"head", 160, 90, 1.5e-4, 1.5e-11, 1e-6, 0.003},    {"head_skin", 160, 90, 3e-4, 1.5e-10, 1e-6, 0.005},
     {"head_marble", 160, 90, 3e-4, 1e-10, 1e-6, 0.005}, {"diffusion_truth", 160, 90, 1e-6, 1e-13, 1e-7, 0.001},
 };
-/// At the size at which the programs render by themselves. One sharp highlight decides the bias of spheres.
+/// At the programs' default image size. One sharp highlight decides the bias of spheres.
 constexpr SceneBars kDefaultBars[] = {
     {"hall", 1280, 720, 1.2e-3, 3e-9, 3e-6, 0.002},        {"spheres", 1280, 720, 1.2e-4, 5e-11, 1e-4, 0.0015},
     {"models", 1280, 720, 4e-4, 5e-9, 5e-7, 0.0006},       {"lattice", 1280, 720, 4e-4, 2e-10, 2.5e-6, 0.001},
@@ -44,14 +43,14 @@ constexpr SceneBars kDefaultBars[] = {
     {"head_marble", 1280, 720, 2.5e-4, 4e-9, 1e-6, 0.001}, {"diffusion_truth", 1280, 720, 1e-6, 1e-13, 1e-7, 0.001},
 };
 
-/// Of scenes with area lights. The shapes of lobes are approximations, and light from them is right to that
-/// (docs/area-lights.md), not to rounding. Without shadows, whose noise SoftShadows judges. Measured 2.6e-2 for lamps,
-/// whose floor and tables are seen at 80 degrees and more, where shapes are worst, 1.4e-2 for studio and 9.7e-3 for
-/// glass: rough glass alone has 5.4e-3, since the reference integrates its lobe by itself. Environments are sampled:
-/// the split sum of that of glass errs by 2.7e-2 (docs/glass.md).
+/// Tolerances of scenes with area lights. Lobe shapes are approximations, whose error (docs/area-lights.md) exceeds
+/// rounding. Without shadows, whose noise SoftShadows tests. Measured 2.6e-2 for lamps, whose floor and tables are
+/// viewed at 80 degrees and more, where shapes are worst, 1.4e-2 for studio and 9.7e-3 for glass: rough glass alone has
+/// 5.4e-3, since the reference integrates its lobe. Environments are sampled: the split sum of that of glass errs by
+/// 2.7e-2 (docs/glass.md).
 struct AreaLitBars {
     const char* scene;
-    std::optional<int> lights; ///< fewer than the scene's own, for speed: each is an integral
+    std::optional<int> lights; ///< fewer than in the scene, for speed: each is an integral
     double relMse, bias;
 };
 constexpr AreaLitBars kAreaLitBars[] = {
@@ -59,7 +58,7 @@ constexpr AreaLitBars kAreaLitBars[] = {
 
 class Reference : public ImageTest {
 protected:
-    /// Forward alone: that the other techniques draw the same is the parity tests' business.
+    /// Forward alone: the parity tests compare the other techniques with it.
     std::vector<validation::ComparePair> compared(const scenes::Scene& scene, frame::FrameSettings settings,
                                                   bool hardware) {
         settings.filter = frame::TextureFilter::Exact;
@@ -72,7 +71,7 @@ protected:
         return validation::compareTechniques(renderer, context().capabilities(), request).record.pairs;
     }
 
-    /// The figures of exact filtering. With `hardware` its second pair, that of hardware filtering, must hold too.
+    /// Returns the figures of exact filtering. With `hardware`, the pair of hardware filtering must pass too.
     validation::ErrorFigures expectAgreement(const std::string& what, const scenes::Scene& scene,
                                              const frame::FrameSettings& settings, bool hardware = false) {
         const std::vector<validation::ComparePair> pairs = compared(scene, settings, hardware);
@@ -81,22 +80,22 @@ protected:
             const validation::ErrorFigures& figures = pair.figures;
             fmt::print("{:<24} {:<26} p99.9 {:.1e}  relMse {:.1e}  bias {:+.1e}  max {:.1e}  excluded {:.3f} %\n", what,
                        pair.a, figures.p999Rel, figures.relMse, figures.bias, figures.maxRel, 100.0 * figures.excluded);
-            // The bars and their reasons are referenceTolerance()'s.
+            // referenceTolerance() defines the limits and their reasons.
             EXPECT_TRUE(pair.tolerance.p999Rel && pair.tolerance.relMse && pair.tolerance.bias);
             EXPECT_TRUE(pair.verdict.ok) << testing::PrintToString(pair.verdict.missed);
-            // Silhouettes: an edge moved by the rasteriser's 1/256 of a pixel, and triangles no larger than a pixel.
+            // Silhouettes: edges moved by the rasteriser's 1/256 of a pixel, and triangles no larger than a pixel.
             EXPECT_LT(figures.excluded, 0.02);
         }
         return pairs.front().figures;
     }
 
-    /// A built-in scene against the tolerances of the software rasteriser. Other drivers may round divisions and
-    /// roots otherwise, and have the bars of referenceTolerance() alone.
+    /// Holds a built-in scene to the tolerances of software rasterisers. Other drivers may round divisions and roots
+    /// otherwise, and have only the limits of referenceTolerance().
     void expectAsGoodAsMeasured(const SceneBars& bars) {
         scenes::Scene scene = scenes::loadScene(bars.scene);
-        // Soft shadows are noise, and held to closed forms (SoftShadows).
+        // Soft shadows are noisy; SoftShadows holds them to closed forms.
         for (scenes::Light& light : scene.lights) light.radiusMetres = light.angularRadiusRadians = 0.0f;
-        // Light spread over texels is another approximation than the reference's, and judged by Diffusion.
+        // Texture-space diffusion approximates otherwise than the reference; Diffusion tests it.
         frame::FrameSettings settings = ofSize(bars.width, bars.height);
         const auto spreads = [](const scenes::Material& material) {
             return material.subsurface.method == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
@@ -110,16 +109,16 @@ protected:
         EXPECT_LE(figures.relMse, bars.relMse);
         EXPECT_LE(std::abs(figures.bias), bars.bias);
         EXPECT_LE(figures.excluded, bars.excluded);
-        // A tolerance this far above the measured figure is too wide: lower it. Sums of errors with signs and
-        // counts of single pixels may be small by chance, and over a million pixels a single one may decide relMse.
+        // Lower a tolerance that is this far above the measured figure. Sums of signed errors and counts of single
+        // pixels may be small by chance, and over a million pixels a single one may decide relMse.
         if (bars.width > 160) return;
-        // Surfaces that face the only light get or lose all of it, here to the last bit.
+        // Surfaces that face the only light get or lose all of it, here bit-identically.
         if (figures.maxRel == 0.0) return;
         EXPECT_GE(figures.p999Rel, 0.1 * bars.p999Rel);
         EXPECT_GE(figures.relMse, 0.1 * bars.relMse);
     }
 
-    /// Or three scenes, if the sweep is not a whole one: of all material models, of shadows and of fine maps.
+    /// All scenes, or three in a short sweep: of all material models, of shadows and of fine maps.
     void expectEverySceneAsGoodAsMeasured(std::span<const SceneBars> bars) {
         EXPECT_EQ(bars.size() + std::size(kAreaLitBars), scenes::builtinScenes().size()) << "a scene has no bars";
         constexpr std::string_view kOfMostKinds[] = {"models", "shadow_truth", "head_marble"};
@@ -128,7 +127,7 @@ protected:
                 expectAsGoodAsMeasured(scene);
     }
 
-    /// A scene that moves, at each of these times or at one of them in turn.
+    /// An animated scene, at each of these times or at one of them in turn.
     void expectAgreementAtTimes(const std::string& what, scenes::Scene scene, std::span<const double> timesSeconds);
     void expectAgreementOfModel(const std::filesystem::path& file, double lengthSeconds);
 };
@@ -138,7 +137,7 @@ TEST_SWEEP(Reference, everyBuiltinSceneAgreesWithIt) {
     expectEverySceneAsGoodAsMeasured(kSmallBars);
 }
 
-/// Of every scene with area lights, or of that with the most shapes of them.
+/// Every scene with area lights, or the one with the most shapes of them.
 TEST_SWEEP(Reference, everyBuiltinSceneOfAreaLightsIsAsNearAsTheShapesOfLobes) {
     constexpr std::size_t kStudio = 1;
     for (const AreaLitBars& bars : inTurn(kAreaLitBars, kStudio)) {
@@ -148,7 +147,7 @@ TEST_SWEEP(Reference, everyBuiltinSceneOfAreaLightsIsAsNearAsTheShapesOfLobes) {
         frame::FrameSettings settings = withoutShadows(ofSize(160, 90));
         settings.environment.light = frame::EnvironmentLight::Sampled;
         settings.environment.samples = 256;
-        // What else glass shows depends on the picture
+        // Other refraction modes depend on the image
         // (GlassBehindSlow.mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsBehind).
         settings.refraction = frame::Refraction::Environment;
         const validation::ComparePair pair = compared(scenes::loadScene(bars.scene, options), settings, false).front();
@@ -181,7 +180,7 @@ void Reference::expectAgreementAtTimes(const std::string& what, scenes::Scene sc
     }
 }
 
-/// What its hook moves and paints, from early on to long after it fell ill, with the ears at different angles.
+/// The hook's motion and colours, from early on to long after the head fell ill, with the ears at different angles.
 TEST_SWEEP(Reference, aHeadThatAHookMovesAgreesWithIt) {
     constexpr double kTimesSeconds[] = {0.6, 2.9, 5.3, 8.0, 11.7};
     expectAgreementAtTimes("head_sick",
@@ -189,7 +188,7 @@ TEST_SWEEP(Reference, aHeadThatAHookMovesAgreesWithIt) {
                            kTimesSeconds);
 }
 
-/// At times of its clip at which none of its parts stands still.
+/// At times of its clip at which all parts move.
 void Reference::expectAgreementOfModel(const std::filesystem::path& file, double lengthSeconds) {
     std::vector<double> timesSeconds;
     for (const double share : {0.07, 0.27, 0.48, 0.7, 0.95}) timesSeconds.push_back(share * lengthSeconds);
@@ -208,7 +207,7 @@ TEST_F(ReferenceSlow, aWalkingSkinAgreesWithIt) {
     expectAgreementOfModel(*file, 2.0);
 }
 
-/// At the size at which the programs render by themselves: single pixels that miss by much are rare.
+/// At the programs' default image size: single pixels with large errors are rare.
 TEST_F(ReferenceSlow, everyBuiltinSceneAgreesWithItAtTheDefaultSize) {
     expectEverySceneAsGoodAsMeasured(kDefaultBars);
 }
@@ -242,7 +241,7 @@ TEST_F(Reference, aSceneFarFromTheOriginAgreesWithIt) {
     expectAgreement("everything at 2^20 m", scene, ofSize(160, 90));
 }
 
-/// Glass before glass before an opaque ball: each layer counts with its own weight.
+/// Glass in front of glass in front of an opaque ball: each layer counts with its own weight.
 TEST_F(Reference, transparentSurfacesOnTopOfEachOtherAgreeWithIt) {
     scenes::Scene scene = everythingScene();
     const scenes::Material glass = scene.materials[std::size_t(scene.nodes.back().instances.front().material)];
@@ -256,7 +255,7 @@ TEST_F(Reference, transparentSurfacesOnTopOfEachOtherAgreeWithIt) {
     expectAgreement("panes of glass", scene, ofSize(160, 90));
 }
 
-/// An index of refraction of 1000 reflects 99.6 % of light: of the rest the table of lobes has less exact a share.
+/// An index of refraction of 1000 reflects 99.6 % of light; the table of lobes holds the rest less accurately.
 TEST_F(Reference, roughGlassOfAHighIndexAgreesToWhatTheTableOfLobesHolds) {
     for (const float roughness : {0.2f, 0.5f}) {
         scenes::Material glass;
@@ -272,7 +271,7 @@ TEST_F(Reference, roughGlassOfAHighIndexAgreesToWhatTheTableOfLobesHolds) {
     }
 }
 
-/// One wrong number in a scene is found: here one light in a hundred of its strength.
+/// A single wrong number in a scene is detected: one light is 1 % too bright.
 TEST_F(Reference, aLightThatDiffersByOnePercentNeverPasses) {
     scenes::Scene scene = scenes::loadScene("room");
     frame::FrameSettings settings = ofSize(96, 54);
@@ -301,7 +300,7 @@ TEST_F(Reference, hardwareFilteringIsAPairOfItsOwnAndHolds) {
     EXPECT_EQ(pairs[0].figures.relMse, pairs[1].figures.relMse); // the same picture from both
 }
 
-/// In whole scenes too, where little is minified and most of a pixel is not its texture.
+/// Detected in whole scenes too, where little is minified and texture is a small part of most pixels.
 TEST_F(Reference, aTextureWithoutItsSmallerLevelsNeverPassesAsHardwareFiltering) {
     const scenes::Scene scene = everythingScene();
     const ShaderMutant shaders("lib/material/texture_filter.glsl", "texture(image, uv)", "textureLod(image, uv, 0.0)");
@@ -329,7 +328,7 @@ TEST_F(SrgbDecoding, everyCodeValueIsDecodedToRounding) {
         for (int y = 0; y < kSide; ++y)
             for (int x = 0; x < kSide; ++x) {
                 const double wanted = reference::linearFromSrgb(code(x, y) / 255.0);
-                // Six roundings of fp32, and neighbours that a coordinate's rounding lets in.
+                // Six fp32 roundings, and neighbouring texels that rounding of a coordinate blends in.
                 EXPECT_NEAR(pixel(shown, x, y).r, wanted, 1e-6 * wanted + 1e-9) << code(x, y);
             }
     }

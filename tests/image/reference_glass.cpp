@@ -1,4 +1,4 @@
-// Rough glass that transmits hardly anything, beside other surfaces: its tolerance is its alone.
+// Rough glass that transmits hardly anything, beside other surfaces: its wider tolerance does not apply to them.
 
 #include "tests/image/ImageTest.h"
 #include "tests/support/ShaderMutant.h"
@@ -11,7 +11,7 @@ using namespace test;
 
 class ReferenceGlass : public ImageTest {
 protected:
-    /// A floor in a sun, and above it a rough ball that covers a hundredth of the picture.
+    /// A floor under a sun, and above it a rough ball that covers a hundredth of the image.
     static scenes::Scene floorWithBall(float ior) {
         scenes::Material paint;
         paint.metallic = 0.3f;
@@ -61,7 +61,7 @@ TEST_F(ReferenceGlass, aFaultOfTheLightBesideGlassThatTransmitsNothingIsFound) {
     }
 }
 
-/// What such glass reflects is held as that of any surface.
+/// Reflection of such glass has the tolerance of any surface.
 TEST_F(ReferenceGlass, aFaultOfItsHighlightsIsFound) {
     const ShaderMutant shaders;
     const std::string light = "layeredBrdfCosine(seen, incident.toLightLS) * incident.irradiance;";
@@ -80,7 +80,7 @@ TEST_F(ReferenceGlass, aFaultOfItsHighlightsIsFound) {
     }
 }
 
-/// A strong tint reflects nearly all red and lets nearly all green and blue pass.
+/// A strong tint reflects nearly all red and transmits nearly all green and blue.
 TEST_F(ReferenceGlass, channelsThatPassAreHeldToWhatTheyPass) {
     scenes::Scene scene = floorWithBall(1.5f);
     scene.materials[1].specularColor = {24.0f, 1.0f, 1.0f};

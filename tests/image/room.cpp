@@ -10,7 +10,7 @@ using namespace test;
 
 class Room : public ImageTest {};
 
-/// The ray through a point of the picture, in pixels from its top-left corner.
+/// The ray through a point of the image, in pixels from its top-left corner.
 glm::dvec3 rayWS(const scenes::Camera& camera, glm::ivec2 size, double x, double y) {
     const double tangent = std::tan(0.5 * camera.fovYRadians);
     const glm::dvec3 rayVS((2.0 * x / size.x - 1.0) * tangent * size.x / size.y, (1.0 - 2.0 * y / size.y) * tangent,
@@ -18,7 +18,7 @@ glm::dvec3 rayWS(const scenes::Camera& camera, glm::ivec2 size, double x, double
     return glm::dmat3(camera.worldFromCamera) * rayVS;
 }
 
-/// What the pixel's centre sees, unless something else lies within a pixel of it.
+/// The surface at the pixel's centre; none if another one lies within a pixel of it.
 std::optional<room::RoomPoint> insideOneSurface(const scenes::Camera& camera, glm::ivec2 size, int x, int y) {
     const glm::dvec3 eyeWS(camera.worldFromCamera[3]);
     const auto center = room::roomPointAlong(eyeWS, rayWS(camera, size, x + 0.5, y + 0.5));
@@ -37,7 +37,7 @@ TEST_F(Room, everyPixelIsTheClosedFormWithEveryTechnique) {
     frame::FrameSettings settings = ofSize(320, 181);
     for (settings.camera = 0; settings.camera < int(scene.cameras.size()); ++settings.camera) {
         const scenes::Camera& camera = scene.cameras[std::size_t(settings.camera)];
-        std::vector<std::optional<room::RoomPoint>> points; // of each pixel, whatever draws it
+        std::vector<std::optional<room::RoomPoint>> points; // of each pixel, for all techniques
         for (int y = 0; y < settings.sizePixels.y; ++y)
             for (int x = 0; x < settings.sizePixels.x; ++x)
                 points.push_back(insideOneSurface(camera, settings.sizePixels, x, y));
@@ -64,8 +64,8 @@ TEST_F(Room, everyPixelIsTheClosedFormWithEveryTechnique) {
                     dark += truth == glm::dvec3(0.0);
                     ++checked;
                 }
-            // The bar. Positions come from a stored fp32 depth, about 1e-6 of the distance, and falloff squares
-            // them.
+            // The required limit. Positions come from a stored fp32 depth, about 1e-6 of the distance, and falloff
+            // squares them.
             EXPECT_LE(worst, 1e-4);
             EXPECT_GT(checked, picture.pixelCount() * 8 / 10) << "too few pixels lie clear of edges";
             fmt::print("room {:<7} {:<16} {} pixels, {} of them unlit, worst relative error {:.2g}\n", camera.name,

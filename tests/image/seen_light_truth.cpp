@@ -1,4 +1,4 @@
-// The surfaces of area lights in pictures: outlines in closed form, what hides what, and the reference.
+// Visible surfaces of area lights: outlines in closed form, occlusion, and the reference.
 #include <cstdint>
 #include <numbers>
 #include <set>
@@ -22,7 +22,7 @@ scenes::Material plainColor(const glm::vec4& color) {
     return material;
 }
 
-/// An unlit quad behind the camera, so that nothing but lights is seen.
+/// An unlit quad behind the camera, so that only lights are visible.
 scenes::Scene lightsAlone(const std::vector<scenes::Light>& lights) {
     scenes::Scene scene = quadScene(plainColor(glm::vec4(1.0f)));
     scene.nodes[0].parentFromNode[3] = glm::dvec4(0.0, 0.0, 100.0, 1.0);
@@ -42,7 +42,7 @@ glm::dmat4 quadAt(const glm::dvec3& middle, const glm::dvec3& along, const glm::
             glm::dvec4(middle, 1.0)};
 }
 
-/// Unlit surfaces, opaque and transparent, that lights of each type stand before, behind and in.
+/// Unlit surfaces, opaque and transparent, with lights of each type before, behind and through them.
 scenes::Scene amongSurfaces() {
     scenes::Scene scene = quadScene(plainColor({0.2f, 0.3f, 0.4f, 1.0f}));
     addQuad(scene, {0.6f, 0.1f, 0.1f, 0.5f}, quadAt({0.1, 0.0, 0.5}, {0.5, 0.1, 0.2}, {-0.1, 0.4, 0.1}));
@@ -66,12 +66,12 @@ scenes::Scene amongSurfaces() {
 
 class SeenLightTruth : public SeenLightTest {
 protected:
-    /// The middle of a picture of 3 x 3 pixels.
+    /// The centre of an image of 3 x 3 pixels.
     glm::vec4 middle(const scenes::Scene& scene, Technique technique = Technique::Deferred) {
         const std::vector<float> radiance = frameOf(scene, ofSize(3, 3), technique).radiance;
         return {radiance[16], radiance[17], radiance[18], radiance[19]};
     }
-    /// Every pixel is all of the light or nothing.
+    /// Expects every pixel to show the light fully or not at all.
     static void expectAllOrNothing(const engine::RenderedFrame& frame) {
         for (std::size_t i = 0; i < frame.radiance.size(); i += 4) {
             const glm::vec4 seen(frame.radiance[i], frame.radiance[i + 1], frame.radiance[i + 2],
@@ -84,7 +84,7 @@ protected:
 
 // ---- Outlines ------------------------------------------------------------------------------------------------------
 
-/// The area in m^2 that a surface shows an eye far away in a direction.
+/// Projected area of a light in m^2, viewed from far away in a direction.
 double projectedAreaOf(const scenes::Light& light, const glm::dvec3& toEye) {
     const double radius = light.radiusMetres, cosine = std::abs(glm::dot(light.directionWS, toEye));
     switch (light.type) {
@@ -102,7 +102,7 @@ double projectedAreaOf(const scenes::Light& light, const glm::dvec3& toEye) {
     }
 }
 
-// Of 20,000 to 60,000 pixels those on the outline, some 700, round either way: a few dozen.
+// Of 20,000 to 60,000 pixels some 700 lie on the outline and round either way: a few dozen.
 constexpr double kOfOutline = 4e-3;
 
 TEST_F(SeenLightTruth, parallelRaysShowTheProjectedArea) {
@@ -125,7 +125,7 @@ TEST_F(SeenLightTruth, parallelRaysShowTheProjectedArea) {
                 const double squareMetres = covered * std::pow(1.6 / kSide, 2);
                 const double wanted = projectedAreaOf(light, {0.0, 0.0, 1.0});
                 EXPECT_NEAR(squareMetres / wanted, 1.0, kOfOutline) << scenes::infoOf(type).name << ", " << samples;
-                // A sample at a time, not a pixel.
+                // Coverage changes by sample, not by pixel.
                 EXPECT_EQ(shares.size(), std::size_t(samples) + 1) << scenes::infoOf(type).name;
             }
 }
@@ -135,7 +135,7 @@ TEST_F(SeenLightTruth, perspectiveShowsTheSolidAngle) {
     constexpr double kDistance = 1.5;
     for (const LightType type : {LightType::Rectangle, LightType::Disk, LightType::Sphere})
         for (const double aside : {0.0, 0.35}) {
-            if (aside != 0.0 && type != LightType::Sphere) continue; // the closed forms are of the axis
+            if (aside != 0.0 && type != LightType::Sphere) continue; // the closed forms hold on the axis
             scenes::Light light = turnedLamp(type, {aside, -aside, 3.0 - kDistance}, {0.0, 0.0, 1.0});
             scenes::Scene scene = lightsAlone({light});
             scene.cameras[0].fovYRadians = 1.0;
@@ -306,7 +306,7 @@ TEST_F(SeenLightTruth, extremeSizesAndPlacesShowTheRadianceOrNothing) {
                     }
 }
 
-/// A wall that fills the view, a hall of 1000 km around a ball, a thread across the picture.
+/// A wall that fills the view, a ball of 900 km radius, a thread across the image.
 TEST_F(SeenLightTruth, lightsOfAnySizeAreSeenWhereTheyFillThePicture) {
     const auto allShown = [&](const scenes::Light& light) {
         const engine::RenderedFrame shown = frameOf(lightsAlone({light}), ofSize(9, 7));

@@ -1,4 +1,4 @@
-// The surfaces of area lights in pictures: every technique, and what is left out without them.
+// Visible surfaces of area lights: parity of techniques, and pruning without them.
 #include <set>
 
 #include "engine/PrepareView.h"
@@ -14,7 +14,7 @@ using namespace test;
 
 class SeenLightPictures : public SeenLightTest {};
 
-/// The scene's lights, and one of each type before its camera at (0, 1.5, 6).
+/// Adds one light of each type to the scene, before its camera at (0, 1.5, 6).
 scenes::Scene withSeenLights(scenes::Scene scene) {
     double x = -2.2;
     for (const LightType type : kAreaTypes) {
@@ -26,7 +26,7 @@ scenes::Scene withSeenLights(scenes::Scene scene) {
     return scene;
 }
 
-/// The scene with materials of one kind, opaque and transparent: what shows a light does not look at others.
+/// The scene with materials of one kind, opaque and transparent: drawing lights does not depend on materials.
 scenes::Scene withPlainMaterials(scenes::Scene scene,
                                  scenes::MaterialModel model = scenes::MaterialModel::MetallicRoughness) {
     for (scenes::Material& material : scene.materials) {
@@ -47,7 +47,7 @@ TEST_SWEEP(SeenLightPictures, everyTechniqueGivesTheSamePictureToTheLastBit) {
         scenes::Scene scene;
         int samples;
         frame::LightingSpace space;
-        std::vector<Technique> techniques; ///< besides forward; none: all
+        std::vector<Technique> techniques; ///< besides forward; empty: all
     };
     const scenes::Scene plain = withSeenLights(withPlainMaterials(everythingScene()));
     const scenes::Scene unlit =
@@ -55,7 +55,7 @@ TEST_SWEEP(SeenLightPictures, everyTechniqueGivesTheSamePictureToTheLastBit) {
     scenes::Scene flat = plain;
     makeOrthographic(flat.cameras[0], 2.0);
     using enum frame::LightingSpace;
-    // Compiling programs that light takes most of the time, and what shows a light does not look at materials.
+    // Compiling lit programs takes most of the time, and drawing lights does not depend on materials.
     std::vector<Case> cases{{"unlit", unlit, 1, World, techniquesInTurn(0)},
                             {"unlit, axes of the view", unlit, 1, View, techniquesInTurn(1)},
                             {"plain", plain, 1, World, {Technique::ClusteredDeferred}},
@@ -77,7 +77,7 @@ TEST_SWEEP(SeenLightPictures, everyTechniqueGivesTheSamePictureToTheLastBit) {
     }
 }
 
-/// With one sample and four, or with one and materials of one kind: programs of all features are those of any scene.
+/// With one sample and four, or with one and materials of one kind: unpruned programs are those of any scene.
 TEST_SWEEP(SeenLightPictures, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
     const bool isWhole = isWholeSweep();
     for (const int samples : isWhole ? std::vector{1, 4} : std::vector{1}) {
@@ -128,7 +128,7 @@ TEST_F(SeenLightPictures, aSceneWithoutLightsToBeSeenHasNoTraceOfThem) {
     }
 }
 
-/// Light lists, ids and all that reads depth ask for surfaces.
+/// Light lists, ids and depth contain surfaces only.
 TEST_SWEEP(SeenLightPictures, depthsListsAndIdsAreThoseOfSurfaces) {
     scenes::Scene seen = withSeenLights(isWholeSweep() ? everythingScene() : withPlainMaterials(everythingScene()));
     scenes::Scene unseen = seen;

@@ -1,4 +1,4 @@
-// A frame of several views gives each the picture that it has in a frame of its own.
+// Each view of a frame of several views has the image of a frame of its own.
 
 #include <gmock/gmock.h>
 
@@ -18,7 +18,7 @@ using namespace test;
 
 class SeveralViews : public ImageTest {
 protected:
-    /// The scene with a second camera, which looks from another place at another part of it.
+    /// The scene with a second camera at another place, which shows another part of it.
     static scenes::Scene withTwoCameras(scenes::Scene scene) {
         scenes::Camera other = scene.cameras.front();
         other.worldFromCamera[3] += glm::dvec4(0.7, 0.3, 0.5, 0.0);
@@ -36,7 +36,7 @@ protected:
         return view;
     }
 
-    /// Draws the views in one frame, then each in a frame of its own.
+    /// Draws the views in one frame, then each in a separate frame.
     void expectEqual(const scenes::Scene& scene, const std::vector<View>& views) {
         engine::Renderer together(context(), scene), alone(context(), scene);
         together.draw(views);
@@ -58,7 +58,7 @@ protected:
     }
 };
 
-/// A scene of everything with all techniques, or with two where all have drawn a plainer one.
+/// A plain scene with all techniques, and a scene of everything with all of them or with two.
 TEST_SWEEP(SeveralViews, twoCamerasInOneFrameAreTwoFramesToTheLastBit) {
     scenes::LoadOptions options;
     options.lights = 200;
@@ -129,7 +129,7 @@ TEST_SWEEP(SeveralViews, sharedMemoryChangesNoBit) {
     EXPECT_LT(bytes, engine::planViews(scene, views).bytes);
 }
 
-/// The normals that a pass between opaque and transparent surfaces finds in the G-buffer.
+/// Normals of the G-buffer, read by a pass between opaque and transparent surfaces.
 class BetweenOpaqueAndTransparent : public ImageTest {
 protected:
     std::vector<float> normals(const scenes::Scene& scene, Technique technique, int samples) {
@@ -208,7 +208,7 @@ TEST_SWEEP(BetweenOpaqueAndTransparent, everyTechniqueHandsOnTheSameNormalsToThe
     EXPECT_GT(std::ranges::count_if(truth, [](float v) { return v != 0.0f; }), std::ptrdiff_t(truth.size() / 3));
     for (const Technique technique : techniquesInTurn(1))
         EXPECT_TRUE(normals(scene, technique, 1) == truth) << engine::infoOf(technique).name;
-    // Of several samples, a fragment has the normal of the middle of those that it covers.
+    // With several samples, a fragment has the normal at the centre of those that it covers.
     const std::vector<float> several = normals(scene, Technique::Forward, 4);
     for (const Technique technique : techniquesInTurn(0, 4))
         EXPECT_TRUE(normals(scene, technique, 4) == several) << engine::infoOf(technique).name << ", 4 samples";

@@ -18,7 +18,7 @@ using namespace test;
 
 constexpr int kWidth = 65, kHeight = 37;
 
-/// What the prepass leaves of one pixel, by sample.
+/// Depths of one pixel after the prepass, by sample.
 struct Pixel {
     std::vector<float> depth, shadingDepth;
     bool covered() const {
@@ -33,7 +33,7 @@ protected:
         return engine::settingsOn(context().capabilities(), asked);
     }
 
-    /// Pixels in GL's order, rows from below.
+    /// Pixels in GL's order, rows from the bottom.
     std::vector<Pixel> prepassed(const scenes::Scene& scene, const frame::FrameSettings& settings) {
         const frame::PreparedView prepared = engine::prepareView(scene, Technique::ForwardPrepass, settings);
         const frame::FrameSpec& spec = prepared.spec;
@@ -111,7 +111,7 @@ private:
     std::unique_ptr<gpu::Program> copy_;
 };
 
-/// A floor that a level camera sees up to the horizon, which crosses the pixels of the middle row.
+/// A floor up to the horizon of a level camera, which crosses the pixels of the middle row.
 scenes::Scene endlessFloor() {
     scenes::Scene scene = everythingScene();
     scene.nodes.resize(1);
@@ -126,7 +126,7 @@ TEST_F(ShadingDepth, everyCoveredSampleHasTheDepthOfItsFragmentAndTheOthersHaveN
     const std::vector<Pixel> pixels = prepassed(endlessFloor(), four);
     int partial = 0, partialOfOne = 0, whole = 0;
     for (const Pixel& pixel : pixels) {
-        // Depths of a plane grow evenly, so that of the middle of the samples it covers is their mean. Where several
+        // Depth is linear over a plane, so that at the centre of the covered samples is their mean. If several
         // triangles share a pixel, it lies between the least and the most.
         std::vector<double> depths;
         for (const float depth : pixel.depth)
@@ -164,7 +164,7 @@ TEST_F(ShadingDepth, aPixelIsLitAtTheDepthThatThePrepassSays) {
     for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
             const Pixel& pixel = pixels[std::size_t(y * kWidth + x)];
-            // Of a reverse-Z depth without far plane; samples that nothing covers show 0.
+            // Reverse-Z depth without far plane; uncovered samples show 0.
             double mean = 0.0;
             for (const float depth : pixel.shadingDepth)
                 mean += depth == 0.0f ? 0.0 : nearMetres / double(depth) / double(pixel.depth.size());
@@ -174,14 +174,14 @@ TEST_F(ShadingDepth, aPixelIsLitAtTheDepthThatThePrepassSays) {
         }
 }
 
-/// A wall that leans back to the right, cut by the near plane just right of the centres of a column of pixels.
-/// Rasterisers move the cut to the nearest point of their grid, 1/256 of a pixel, which covers the centres, and there
-/// the wall's plane lies before the near plane. The depth buffer holds such fragments at it.
+/// A wall that leans back to the right, cut by the near plane just right of the centres of a pixel column. Rasterisers
+/// snap the cut to their grid of 1/256 pixel, which covers the centres, and there the wall's plane lies in front of the
+/// near plane. The depth buffer stores such fragments at the near plane.
 TEST_F(ShadingDepth, aFragmentThatRoundingPutsBeforeTheNearPlaneIsLitAtIt) {
     scenes::Scene scene = quadScene(scenes::Material{});
     makeOrthographic(scene.cameras[0], 1.0);
-    scene.cameras[0].nearMetres = 3.0; // as far away as the wall's middle, which the middle column's centres see
-    scene.cameras[0].farMetres = 4.0;  // so that a thousandth of a pixel is hundreds of steps of depth
+    scene.cameras[0].nearMetres = 3.0; // distance of the wall's middle, which the middle column's centres show
+    scene.cameras[0].farMetres = 4.0;  // so that a thousandth of a pixel is hundreds of depth steps
     scene.nodes[0].parentFromNode[0].z = -0.5;
     constexpr double kPixelMetres = 2.0 / kHeight;
     int atPlane = 0;

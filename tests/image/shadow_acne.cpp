@@ -12,7 +12,7 @@ using engine::Technique;
 using frame::ShadowFilter;
 using namespace test;
 
-/// Shadows of maps where nothing hides a surface but its own bias could be too small.
+/// Mapped shadows on surfaces that nothing hides, where a bias could be too small.
 class ShadowAcne : public ShadowTest {};
 
 TEST_SWEEP(ShadowAcne, isNotOnASphereAndAPlaneUnderAnySun) {
@@ -29,7 +29,7 @@ TEST_SWEEP(ShadowAcne, isNotOnASphereAndAPlaneUnderAnySun) {
     EXPECT_LE(double(count.wrong), 0.0009 * double(count.covered));
 }
 
-// At 512 texels, of which one is a third of a pixel, more are wrong, since no penumbra is narrower than a texel.
+// At 512 texels, each a third of a pixel, more are wrong, since no penumbra is narrower than a texel.
 TEST_SWEEP(ShadowAcne, isNotOnASphereAndAPlaneUnderASunWithASize) {
     scenes::Scene scene = ballUnderSun();
     scenes::Light& sun = scene.lights[0];
@@ -42,19 +42,19 @@ TEST_SWEEP(ShadowAcne, isNotOnASphereAndAPlaneUnderASunWithASize) {
     WrongPixels count;
     for (int i = 0; i < directions; ++i) {
         sun.directionWS = sunDirection(i, directions);
-        settings.shadowFilter = ShadowFilter::Traced; // of which the reference knows the noise
+        settings.shadowFilter = ShadowFilter::Traced; // whose noise the reference allows for
         const ShadowReference truth = shadowReference(scene, settings);
         settings.shadowFilter = ShadowFilter::Pcss;
         count += wrongPixels(renderer, settings, truth);
     }
     fmt::print("{} suns, pcss: {}\n", directions, count.text());
     EXPECT_EQ(count.dark, 0u);
-    // Measured: 0.040 %, of a quarter of the suns within three standard deviations of so few independent events.
+    // Measured: 0.040 %; with a quarter of the suns within three standard deviations of so few independent events.
     const double bound = 0.0005 * double(count.covered);
     EXPECT_LE(double(count.wrong), isWholeSweep() ? bound : bound + 3.0 * std::sqrt(bound));
 }
 
-// Taps of wide filters follow the triangle's plane. The code of this floor's normal is off by 1.03e-3, nearly all of
+// Taps of wide filters follow the triangle's plane. This floor's stored normal is off by 1.03e-3, nearly all of
 // FACET_ERROR_RADIANS; on a floor much larger than its first cascade pcss taps a thousand texels along it.
 TEST_SWEEP(ShadowAcne, isNotOnAPlaneWithAnyFilter) {
     scenes::Scene scene = ballUnderSun();
@@ -77,7 +77,7 @@ TEST_SWEEP(ShadowAcne, isNotOnAPlaneWithAnyFilter) {
         for (const ShadowFilter filter : mapFilters()) {
             settings.shadowFilter = filter;
             std::size_t dark = 0;
-            // Half of them stand lower than 7.6 degrees above the floor, none lower than 1.
+            // Half of the suns stand lower than 7.6 degrees above the floor, none lower than 1.
             const int suns = isWholeSweep() ? 60 : 15;
             for (int i = 0; i < suns; ++i) {
                 const double tilt = std::acos(std::pow(0.0175, (i + 0.5) / suns)), turn = 2.399963229728653 * i;
@@ -91,9 +91,9 @@ TEST_SWEEP(ShadowAcne, isNotOnAPlaneWithAnyFilter) {
     }
 }
 
-// Where two sides of a groove meet, a texel's middle may lie on the other side: that is what the bias is for. Neither
+// Where two sides of a groove meet, a texel's centre may lie on the other side, which the bias compensates. Neither
 // side hides a sun that is in front of both. Casters are moved away by the width of a texel at most, which is half of
-// the slope's components as long as those are 2 together: of sides that a sun meets within 54.7 degrees. A steeper one
+// the slope's components as long as those are 2 together: for sides that a sun meets within 54.7 degrees. A steeper one
 // may darken pixels within a texel and the one beside it.
 TEST_F(ShadowAcne, isNotInAGrooveButBesideItsSteepSides) {
     scenes::Material material = lambert();
@@ -117,7 +117,7 @@ TEST_F(ShadowAcne, isNotInAGrooveButBesideItsSteepSides) {
         engine::Renderer renderer(context(), scene);
         for (const int resolution : {64, 256}) {
             settings.shadowMaps.resolutionTexels = resolution;
-            // The ball around the sides has a radius of at most 1.68 m, also in the steps of cascades.
+            // The bounding sphere of the sides has a radius of at most 1.68 m, also in the size steps of cascades.
             const double texelMetres = 2.0 * 1.69 / double(resolution - 4);
             for (int i = 0; i < 200; ++i) {
                 const double z = 1.0 - (i + 0.5) / 200.0, around = 2.399963229728653 * i,
@@ -176,7 +176,7 @@ constexpr MapFault kMapFaults[] = {
 
 class ShadowFaults : public ShadowTest {
 protected:
-    /// Pixels that are wrong in a picture of point lights and a sun.
+    /// Wrong pixels in an image of point lights and a sun.
     std::size_t wrongIn(const shader::SourceTree& shaders) {
         engine::Renderer renderer(context(), scene, shaders);
         return wrongPixels(renderer, settings, *truth).wrong;
@@ -191,7 +191,7 @@ protected:
         sun.intensity = 1.0f;
         scene.lights.push_back(sun);
         settings.sizePixels = {200, 112};
-        // Softened, no surface that faces away from a light by its triangle alone is behind it.
+        // Softened terminators would not treat a surface as facing away by its triangle alone.
         settings.shadowTerminator = frame::ShadowTerminator::Exact;
         settings.shadows = kAllLightsCast;
         settings.filter = frame::TextureFilter::Exact;
@@ -206,7 +206,7 @@ protected:
     std::optional<ShadowReference> truth;
 };
 
-// Held to the traced shares of a lamp before a plate: what no mean of casters' depths may be divided by.
+// Against the traced visibility of a lamp before a plate: caster counts for which pcss must not take a mean depth.
 TEST_F(ShadowFaults, meansOfNoCasterOrOfCastersEverywhereAreDetected) {
     const scenes::Scene plate = scenes::loadScene("shadow_truth");
     frame::FrameSettings shares = withView(ofSize(160, 90), frame::DebugView::Shadow);
@@ -221,7 +221,7 @@ TEST_F(ShadowFaults, meansOfNoCasterOrOfCastersEverywhereAreDetected) {
     const auto wrongShares = [&](const shader::SourceTree& shaders) {
         const std::vector<float> looked = sharesOf(ShadowFilter::Pcss, shaders);
         std::size_t wrong = 0;
-        // A quarter is five deviations of 16 samples.
+        // A quarter is five standard deviations of 16 samples.
         for (std::size_t i = 0; i < looked.size(); i += 4) wrong += !(std::abs(looked[i] - traced[i]) < 0.25f);
         return wrong;
     };

@@ -9,7 +9,7 @@ using engine::Technique;
 using frame::ShadowFilter;
 using namespace test;
 
-/// What lives across frames.
+/// State that is kept across frames.
 class ShadowCache : public ShadowTest {
 protected:
     ShadowCache() {
@@ -21,7 +21,7 @@ protected:
         settings.shadowFilter = ShadowFilter::Hard;
         settings.prune = true;
     }
-    /// Whether the next frame draws maps, and whether its picture is that of a renderer that has drawn none before.
+    /// Returns whether the next frame draws maps; checks that its image is that of a new renderer.
     bool drawsMapsRightly(engine::Renderer& renderer) {
         renderer.draw(Technique::ClusteredDeferred, settings);
         const std::vector<float> kept = renderer.download().radiance;
@@ -53,7 +53,7 @@ TEST_F(ShadowCache, mapsAreDrawnAgainWhereLightsOrCastersChangeAndNowhereElse) {
     settings.shadowFilter = ShadowFilter::Traced;
     EXPECT_FALSE(drawsMapsRightly(renderer)) << "no maps";
     settings.shadowFilter = ShadowFilter::Hard;
-    drawsMapsRightly(renderer); // the atlas may still be there
+    drawsMapsRightly(renderer); // the atlas may still be cached
     EXPECT_FALSE(drawsMapsRightly(renderer));
 }
 
@@ -86,7 +86,7 @@ TEST_F(ShadowCache, timesInAnyOrderHaveThePicturesThatTheyHaveAlone) {
 }
 
 TEST_F(ShadowCache, keyframesThatTurnALightDrawItsMapAgainAndThoseOfItsColourDoNot) {
-    settings.prune = false; // turned away, it still has a map
+    settings.prune = false; // so that it has a map when turned away
     scenes::Light& light = scene.lights[1];
     light.type = scenes::LightType::Spot;
     scenes::LightKeys& keys = light.keyframes.emplace_back();

@@ -7,8 +7,8 @@ namespace {
 using frame::ShadowFilter;
 using namespace test;
 
-/// Balls, boards and a floor under a sun, seen by parallel rays. A camera that moves across them by whole pixels sees
-/// the same points of all surfaces, whatever their shapes, each as many pixels further.
+/// Balls, boards and a floor under a sun, viewed by parallel rays. A camera that moves across them by whole pixels
+/// shows the same points of all surfaces, shifted by as many pixels, whatever their shapes.
 class ShadowCascades : public ShadowTest {
 protected:
     static constexpr glm::ivec2 kSizePixels{192, 108};
@@ -25,23 +25,23 @@ protected:
         settings.shadows = kAllLightsCast;
     }
 
-    /// By how many pixels the camera has moved across the scene after so many moves.
+    /// The camera's offset across the scene in pixels after so many moves.
     static glm::ivec2 offsetPixels(int moves) { return {moves, (moves + 1) / 3}; }
 
-    /// A colour of the view of cascades, as bright as can be: shadows darken it, cascades that mix change its hue.
+    /// Hue of a colour of the view `cascades` at full brightness: shadows darken it, blended cascades change its hue.
     static glm::ivec3 hue(const float* color) {
         const glm::vec3 rgb(color[0], color[1], color[2]);
         return glm::round(1000.0f * rgb / std::max({rgb.x, rgb.y, rgb.z}));
     }
 
-    /// Pixels, of the whole way, whose shadow a move changes by more than a hundredth.
+    /// Counts of pixels over all moves; a change is one of the shadow by more than a hundredth.
     struct Changes {
-        std::size_t all = 0;      ///< by the filter
-        std::size_t passing = 0;  ///< of these, in parts of the picture that pass from one cascade into the next
-        std::size_t shimmer = 0;  ///< of the others, where no ray to the sun is hidden or laid open
-        std::size_t traced = 0;   ///< by rays to the sun
-        std::size_t partly = 0;   ///< pixels in some shadow, in all frames
-        std::size_t compared = 0; ///< pixels, of all moves
+        std::size_t all = 0;      ///< changes with the filter
+        std::size_t passing = 0;  ///< of these, where one cascade blends into the next
+        std::size_t shimmer = 0;  ///< of the others, where no ray to the sun changes
+        std::size_t traced = 0;   ///< changes with rays to the sun
+        std::size_t partly = 0;   ///< pixels in some shadow
+        std::size_t compared = 0; ///< pixels
     };
     Changes changes(ShadowFilter filter) {
         const glm::dmat4 first = scene.cameras[0].worldFromCamera;
@@ -101,7 +101,7 @@ TEST_SWEEP(ShadowCascades, doNotShimmerAsTheCameraMovesByPartsOfATexel) {
                            found.partly, found.compared);
                 EXPECT_GT(found.partly, found.compared / 20);
                 EXPECT_EQ(found.shimmer, 0u);
-                // The cascades' edges follow the camera, and so does the band in which they mix.
+                // The cascades' edges follow the camera, and so does the band in which they blend.
                 EXPECT_LT(found.passing, found.compared / 1000);
             }
 }

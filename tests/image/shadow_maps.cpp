@@ -74,14 +74,14 @@ TEST_SWEEP_AS(ShadowMapsTest, fewPixelsAreWrongAndFewerWithMoreTexels, ShadowMap
     }
 }
 
-/// Light by light, so that every face has the side that is asked for: the atlas holds no more than 16 faces of 4096.
+/// Light by light, so that every face has the requested side: the atlas holds no more than 16 faces of 4096.
 TEST_F(ShadowMapsSlow, ofEveryLightFewerPixelsAreWrongTheFinerItsTexels) {
     constexpr int kResolutions[] = {512, 1024, 2048, 4096};
     for (const ShadowCase& tried : kShadowCases) {
         const scenes::Scene scene = sceneOf(tried);
         engine::Renderer renderer(context(), scene);
         frame::FrameSettings settings = settingsOf(tried);
-        // Softened, a pixel holds its height in 8 bits, whose error does not shrink with texels.
+        // Softened terminators store a pixel's height in 8 bits, whose error does not shrink with texels.
         settings.shadowTerminator = frame::ShadowTerminator::Exact;
         settings.shadowMaps.budgetMiB = 1024.0;
         WrongPixels counts[std::size(kResolutions)];
@@ -104,7 +104,7 @@ TEST_F(ShadowMapsSlow, ofEveryLightFewerPixelsAreWrongTheFinerItsTexels) {
                 tried.scene, kResolutions[i], count.wrong, count.leaks, count.dark, count.leaksAtContacts,
                 count.darkAtContacts, count.reached);
             SCOPED_TRACE(fmt::format("{}, {} texels", tried.scene, kResolutions[i]));
-            // Wrong pixels lie at outlines, in a band as wide as a texel. Which pixels' middles lie in it is chance:
+            // Wrong pixels lie at outlines, in a band as wide as a texel. Which pixel centres lie in it is random:
             // three standard deviations of so few independent events.
             const double expected = double(counts[0].wrong) * std::pow(2.0, -double(i));
             EXPECT_LE(double(count.wrong), expected + 3.0 * std::sqrt(expected));
@@ -128,7 +128,7 @@ TEST_SWEEP_AS(ShadowMapsTest, tracedOnesAreAsRightInViewSpace, ShadowMapsSlow, t
     }
 }
 
-// Of a lamp: cascades of a sun reach to the farthest of all that is drawn.
+// For a lamp: a sun's cascades extend to the farthest geometry.
 TEST_F(ShadowMapsTest, aStrayTriangleFarAwayTakesNoShadowOfALampAndThoseOfASunAreSaidToBeLost) {
     scenes::Scene scene = ballUnderSun();
     scene.lights[0].type = scenes::LightType::Point;
@@ -141,7 +141,7 @@ TEST_F(ShadowMapsTest, aStrayTriangleFarAwayTakesNoShadowOfALampAndThoseOfASunAr
         if (farMetres > 0.0f) {
             scene.meshes.resize(2);
             const glm::vec3 strayOS(farMetres, 0.0f, 0.0f);
-            const float side = std::max(2.0f, 2e-7f * farMetres); // of few steps of fp32 there
+            const float side = std::max(2.0f, 2e-7f * farMetres); // a few fp32 steps at that distance
             for (const glm::vec3& along : {glm::vec3(0.0f), glm::vec3(side, 0.0f, 0.0f), glm::vec3(0.0f, side, 0.0f)})
                 scene.meshes[1].positionsOS.push_back(strayOS + along);
             scene.meshes[1].normalsOS.resize(scene.meshes[1].positionsOS.size(), glm::vec3(0, 1, 0));
@@ -156,7 +156,7 @@ TEST_F(ShadowMapsTest, aStrayTriangleFarAwayTakesNoShadowOfALampAndThoseOfASunAr
         EXPECT_EQ(renderer.shadows().missing, "");
         if (farMetres == 0.0f) without = count;
         EXPECT_GT(count.hidden, 50u);
-        // The stray's own length is rounded.
+        // The stray's length is rounded.
         EXPECT_LE(count.undecided, without.undecided + count.covered / 100);
         EXPECT_LE(count.wrong, without.wrong + count.covered / 500);
     }
@@ -189,7 +189,7 @@ TEST_SWEEP_AS(ShadowMapsTest, aBudgetLeavesEveryLightItsShadow, ShadowMapsSlow, 
     settings.filter = frame::TextureFilter::Exact;
     const ShadowReference truth = shadowReference(scene, settings);
     settings.shadowFilter = ShadowFilter::Hard;
-    // MiB, and a share of the pixels; measured 2.4, 5.1 and 9.7 %, where each asks for the shadows of some nine lights.
+    // MiB and fraction of wrong pixels; measured 2.4, 5.1 and 9.7 %, where each reads the shadows of some nine lights.
     const std::pair<double, double> budgets[] = {{64.0, 0.036}, {16.0, 0.076}, {4.0, 0.125}};
     for (const auto& [mebibytes, mostWrong] : budgets) {
         settings.shadowMaps.budgetMiB = mebibytes;
@@ -201,9 +201,9 @@ TEST_SWEEP_AS(ShadowMapsTest, aBudgetLeavesEveryLightItsShadow, ShadowMapsSlow, 
     }
 }
 
-/// The pictures of the stability suite's cases of shadows, and budgets too small for them.
-/// With every filter, each light's shares and two techniques; or of every fourth picture with a filter, a light and
-/// a technique in turn, and without the case of thousands of lights.
+/// Images of the stability suite's shadow cases, and budgets too small for them.
+/// With every filter, each light's visibility and two techniques. In a short sweep every fourth image with a filter, a
+/// light and a technique in turn, without the case of thousands of lights.
 TEST_SWEEP_AS(ShadowMapsTest, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne, ShadowMapsSlow,
               extremeScenesStayFiniteAndNoShadowIsOutsideZeroToOne) {
     const bool isWhole = isWholeSweep();
@@ -217,7 +217,7 @@ TEST_SWEEP_AS(ShadowMapsTest, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToO
         pictures.back().what = fmt::format("a budget of {:g} MiB", mebibytes);
         pictures.back().settings.shadowMaps.budgetMiB = mebibytes;
     }
-    // Cascades without a caster: nothing in view but the sky, and one surface all alone.
+    // Cascades without a caster: only the sky in view, and a single surface.
     for (const double y : {1e3, 0.5}) {
         validation::StressPicture& picture = pictures.emplace_back(pictures.front());
         picture.what = fmt::format("cascades without casters, seen from {:g} m", y);
@@ -247,7 +247,7 @@ TEST_SWEEP_AS(ShadowMapsTest, extremeScenesStayFiniteAndNoShadowIsOutsideZeroToO
                 << infoOf(filter).name;
             if (filter == ofTurn) radiance = seen;
         }
-        // The shares themselves, and other techniques, for one filter of each picture in turn.
+        // Visibility itself, and other techniques, for one filter per image in turn.
         settings.shadowFilter = ofTurn;
         settings.view = frame::DebugView::Final;
         for (const Technique other : {Technique::ClusteredDeferred, Technique::Forward}) {
@@ -278,7 +278,7 @@ TEST_F(ShadowMapsTest, penumbraeOfPcssAreThoseOfTracedShadows) {
             return renderer.render(Technique::Deferred, settings).radiance;
         };
         const std::vector<float> truth = shares(ShadowFilter::Traced), looked = shares(ShadowFilter::Pcss);
-        // A penumbra is as wide as it has pixels that are neither dark nor lit.
+        // The width of a penumbra is measured by the pixels that are neither dark nor lit.
         std::size_t wide = 0, wideTruth = 0;
         double squares = 0.0;
         for (std::size_t i = 0; i < truth.size(); i += 4) {

@@ -17,18 +17,18 @@ using namespace test;
 
 constexpr int kOutlinePixels = 64;
 
-/// A way to find shadows that are all or nothing, and how far from its place it may draw an outline on the plate.
+/// A shadow filter without penumbrae, and how far it may displace an outline on the plate.
 struct OutlineWay {
     ShadowFilter filter;
     double leewayMetres;
 };
-/// A face has at most 3.4 m, for the ball around the scene has a radius of 1.44 m, which is 1.68 m in the steps of
-/// cascades. So of 2048 texels one is 1.7 mm wide, and on the plate, which all lights see aslant, at most 3 mm.
+/// A face spans at most 3.4 m: the scene's bounding sphere has a radius of 1.44 m, which is 1.68 m in the size steps of
+/// cascades. So one of 2048 texels is 1.7 mm wide, and on the plate, which all lights meet obliquely, at most 3 mm.
 constexpr OutlineWay kOutlineWays[] = {{ShadowFilter::Traced, 0.0}, {ShadowFilter::Hard, 3e-3}};
 constexpr int kMapTexels = 2048;
 
-/// A square of 2 m in the plane z = 0, seen from above by parallel rays that it fills, and a square of 0.4 m above it
-/// at height 0.5. Nothing else is known of the shadow than where the light is.
+/// A square of 2 m in the plane z = 0 that fills the image of parallel rays from above, and a square of 0.4 m above it
+/// at height 0.5. The expected shadow follows from the light's position alone.
 class ShadowOutline : public FlatTest {
 protected:
     static constexpr glm::dvec3 kCasterWS{-0.4, 0.1, 0.5};
@@ -56,8 +56,8 @@ protected:
     }
     static scenes::Light lamp() { return pointLight({-1.2, 0.0, 1.5}, 3.0f); }
 
-    /// Where the way from a point of the ground to the light crosses the plane of the plate, in the plate's coordinates
-    /// -1 .. 1.
+    /// Where the line from a point of the ground to the light crosses the plane of the plate, in the plate's
+    /// coordinates -1 .. 1.
     static glm::dvec2 onPlate(const scenes::Light& light, const glm::dvec3& pointWS) {
         const bool isFar = light.type == scenes::LightType::Directional;
         const glm::dvec3 toLight = isFar ? -light.directionWS : light.positionWS - pointWS;
@@ -68,8 +68,8 @@ protected:
     static bool isInSquare(const glm::dvec2& place) { return std::max(std::abs(place.x), std::abs(place.y)) < 1.0; }
     static bool isNever(const glm::dvec2&) { return false; }
 
-    /// How many pixels of the ground are dark in the picture, how many of them or of the others should not be so, and
-    /// how many lie so near to an outline that either will do.
+    /// Counts of ground pixels: those that are dark, those that are wrong, and those so near to an outline that either
+    /// is right.
     struct Outline {
         int dark = 0, wrong = 0, undecided = 0;
     };
@@ -102,7 +102,7 @@ protected:
             }
         return found;
     }
-    /// Expects a shadow there, or (`isNever`) none, however it is found.
+    /// Expects a shadow there, or (`isNever`) none, with every filter of kOutlineWays.
     template <typename IsHidden>
     void expectShadowAt(const scenes::Scene& scene, const scenes::Light& light, const IsHidden& isHidden,
                         const frame::FrameSettings& settings = {}) {
@@ -138,7 +138,7 @@ TEST_F(ShadowOutline, isTheSameOfMirroredAndTurnedAndTwoSidedCasters) {
     for (const glm::dmat4& change : {mirror, turn, turn * mirror}) {
         scenes::Scene scene = plateUnder(lamp());
         scene.nodes[1].parentFromNode *= change;
-        // Turned away its single side is not drawn: what is below it shows, and it casts all the same.
+        // Facing away, its single side is not drawn: the ground below shows, and it casts all the same.
         expectShadow(scene);
         scene.materials[1].doubleSided = true;
         expectShadow(scene);
@@ -154,7 +154,7 @@ TEST_F(ShadowOutline, hasTheHolesOfAMask) {
     use.sampler.magnification = scenes::Filter::Nearest;
     for (const scenes::Wrap wrap : {scenes::Wrap::Repeat, scenes::Wrap::MirroredRepeat, scenes::Wrap::ClampToEdge}) {
         use.sampler.wrapU = use.sampler.wrapV = wrap;
-        use.transform.offset = {1.0f, 0.0f}; // another copy of the picture
+        use.transform.offset = {1.0f, 0.0f}; // another repetition of the texture
         const auto isHidden = [&](const glm::dvec2& place) {
             if (!isInSquare(place)) return false;
             const int row = int(4.0 * (1.0 - place.y));
@@ -166,7 +166,7 @@ TEST_F(ShadowOutline, hasTheHolesOfAMask) {
         SCOPED_TRACE(int(wrap));
         expectShadowAt(scene, scene.lights[0], isHidden);
     }
-    // All of a mask's own opacity is below the cutoff.
+    // All of the mask's opacity is below the cutoff.
     scene.materials[1].baseColor.w = 0.25f;
     expectNone(scene);
 }
@@ -213,7 +213,7 @@ TEST_F(ShadowOutline, isPlannedOnlyWhereThereIsOne) {
     EXPECT_EQ(mentions(scene), 0) << "no light casts";
 }
 
-// Of a lamp in a ceiling rounding would decide whether it shines. Maps see no triangle that is edge-on.
+// For a lamp in a ceiling, rounding would decide whether it shines. Maps do not contain edge-on triangles.
 TEST_F(ShadowOutline, isNotThatOfATriangleWhosePlaneHoldsTheLamp) {
     for (int i = 0; i < 8; ++i) {
         scenes::Scene scene = plateUnder(lamp());
@@ -238,12 +238,12 @@ TEST_F(ShadowOutline, staysWhereItIsFarFromTheOriginAndAtAnySize) {
             if (glm::length(placeWS) > 0.0 && scale < 1.0) continue; // doubles have no digits for 0.1 mm there
             validation::moveScene(scene, scale, placeWS);
             SCOPED_TRACE(fmt::format("{} times as large at {}", scale, placeWS.x));
-            // In the coordinates of the scene as it was.
+            // In the coordinates of the original scene.
             expectShadowAt(scene, lamp(), isInSquare);
         }
 }
 
-// Of seven texels of 5 cm, a pixel of 8 mm is a fiftieth.
+// The filter is seven texels of 5 cm wide; a pixel of 8 mm is a fiftieth of that.
 TEST_F(ShadowOutline, ofPcfIsGradualOnASlopeToo) {
     for (const double height : {2.0, 1.0, 0.5}) {
         scenes::Light light = sun();
@@ -272,7 +272,7 @@ TEST_F(ShadowOutline, ofPcfIsGradualOnASlopeToo) {
     }
 }
 
-/// A plate that is drawn from below alone, so that the ground is seen through it.
+/// Flips the plate at this height: it is drawn only from below, so that the ground is visible through it.
 scenes::Scene plateSeenThrough(scenes::Scene scene, double heightMetres) {
     glm::dmat4& plate = scene.nodes[1].parentFromNode;
     plate[3].z = heightMetres;
@@ -280,8 +280,8 @@ scenes::Scene plateSeenThrough(scenes::Scene scene, double heightMetres) {
     return scene;
 }
 
-// A square of texels on the triangle, as the light looks at it: seven texels wide also where the light's own square of
-// texels would reach 3.2 times as far along the ground. The light is 3 m aside for one of height.
+// The filter is a square of texels on the triangle, as viewed from the light: seven texels wide even where the light's
+// own square of texels would extend 3.2 times as far along the ground. The light is 3 m aside per metre of height.
 TEST_F(ShadowOutline, ofPcfIsAsWideOnASteepSlopeAsAcrossTheLight) {
     scenes::Light light = sun();
     light.directionWS = glm::normalize(glm::dvec3(3.0, 0.0, -1.0));
@@ -293,7 +293,7 @@ TEST_F(ShadowOutline, ofPcfIsAsWideOnASteepSlopeAsAcrossTheLight) {
     settings.shadowMaps.resolutionTexels = 256;
     settings.shadowMaps.cascades = 1;
     const std::vector<float> seen = drawn(scene, settings);
-    // The ball around the scene has a radius of 1.42 m, which is 1.68 m in the steps of cascades.
+    // The scene's bounding sphere has a radius of 1.42 m, which is 1.68 m in the size steps of cascades.
     const double texelMetres = 2.0 * 1.68179 / (256.0 - 2.0 * 5.0);
     const std::size_t row = std::size_t((1.0 - kCasterWS.y) * 128.0);
     int partly = 0, dark = 0;
@@ -305,11 +305,11 @@ TEST_F(ShadowOutline, ofPcfIsAsWideOnASteepSlopeAsAcrossTheLight) {
     const double widthMetres = partly / 2.0 / 128.0; // of one edge
     fmt::print("{:.1f} texels wide, {} pixels dark\n", widthMetres / texelMetres, dark);
     EXPECT_NEAR(widthMetres / texelMetres, 7.0, 1.0);
-    // Each of its edges lies on one between texels.
+    // Each of its edges lies on a border between texels.
     EXPECT_NEAR((dark + 0.5 * partly) / 128.0, 2.0 * kHalfSide, std::sqrt(10.0) * texelMetres);
 }
 
-// The square of texels is centred on the point.
+// The filter's square of texels is centred on the point.
 TEST_F(ShadowOutline, ofPcfLiesInTheMiddleBelowAPlate) {
     scenes::Light light = sun();
     light.directionWS = {0.0, 0.0, -1.0};
@@ -328,14 +328,14 @@ TEST_F(ShadowOutline, ofPcfLiesInTheMiddleBelowAPlate) {
     }
     const glm::dvec2 middleWS = sum / dark / 128.0 - 1.0;
     const double texelMetres = 2.0 * 1.68179 / (256.0 - 2.0 * 5.0);
-    // Each of its edges lies on one between texels.
+    // Each of its edges lies on a border between texels.
     EXPECT_LT(glm::distance(middleWS, glm::dvec2(kCasterWS)), texelMetres);
 }
 
-// A light that grazes the ground, 7 m aside for one of height, and a wall across its way. Half a texel on the ground is
-// 3.5 texels deep for the light, so that the ground could be as far nearer than it is; but behind a wall that fills the
-// texel beside, on the ground's upper side, it is dark from a texel on. A texel is 0.19 m of ground long, in which the
-// wall's foot has eight places.
+// A light that grazes the ground, 7 m aside per metre of height, and a wall across its way. Half a texel on the ground
+// is 3.5 texels deep for the light, so that the ground's depth may be as far off. But behind a wall that fills the next
+// texel, on the ground's upper side, the ground is dark from a texel on. A texel covers 0.19 m of ground, within which
+// the wall's foot has eight places.
 TEST_F(ShadowOutline, ofAWallOnAGrazedSurfaceBeginsWithinATexel) {
     scenes::Light light = sun();
     light.directionWS = glm::normalize(glm::dvec3(7.0, 0.0, -1.0));
@@ -343,7 +343,7 @@ TEST_F(ShadowOutline, ofAWallOnAGrazedSurfaceBeginsWithinATexel) {
     settings.shadowFilter = frame::ShadowFilter::Hard;
     settings.shadowMaps.resolutionTexels = 128;
     settings.shadowMaps.cascades = 1;
-    // The ball around the scene has a radius of 1.43 m, which is 1.68 m in the steps of cascades.
+    // The scene's bounding sphere has a radius of 1.43 m, which is 1.68 m in the size steps of cascades.
     const double texelMetres = 2.0 * 1.68179 / (128.0 - 2.0 * 2.0);
     int behind = 0, lit = 0, before = 0, dark = 0;
     for (int i = 0; i < 8; ++i) {
@@ -371,8 +371,8 @@ TEST_F(ShadowOutline, ofAWallOnAGrazedSurfaceBeginsWithinATexel) {
     EXPECT_EQ(dark, 0);
 }
 
-// The edge of a plate before the sun's disk, and of another that hides none of it, 0.36 m aside where casters are
-// looked for within 0.26 m at most. What the share of a disk is that a straight edge leaves is known.
+// The edge of a plate in front of the sun's disk, and of another that hides none of it, 0.36 m aside, where casters are
+// searched for within 0.26 m at most. The fraction of a disk that a straight edge leaves has a closed form.
 TEST_F(ShadowOutline, ofPcssIgnoresCastersBesideTheLight) {
     constexpr double kTangent = 0.14, kLowMetres = 0.2, kHighMetres = 0.6, kHighEdge = 0.36;
     scenes::Light light = sun();

@@ -1,4 +1,4 @@
-// Shadows of smooth-shaded triangles are asked for from above them (docs/shadows.md, "Smooth-shaded meshes").
+// Shadow rays of smooth-shaded triangles start above them (docs/shadows.md, "Smooth-shaded meshes").
 #include "tests/image/ShadowTest.h"
 #include "validation/reference/CameraRays.h"
 
@@ -28,10 +28,10 @@ protected:
     static std::vector<float> picture(engine::Renderer& renderer, const frame::FrameSettings& settings) {
         return renderer.render(Technique::Deferred, settings).radiance;
     }
-    /// Expects that points of a square of so many rows, whose normals lean outwards, in radians, are lifted, and by how
-    /// much, seen by parallel rays at an angle to the vertical, with a floor twice `eyeMetres` below.
+    /// Expects points of a square of so many rows, whose normals lean outwards by `lean` radians, to be lifted as the
+    /// closed form requires. Viewed by parallel rays at an angle to the vertical, with a floor twice `eyeMetres` below.
     void expectLifted(double lean, int rows, int samples, double eyeMetres, double eyeRadians);
-    /// Expects that softened terminators change no bit of the picture, and shadows do.
+    /// Expects that softened terminators change no bit of the image, and shadows do.
     void expectExactToTheLastBit(const scenes::Scene& scene) {
         engine::Renderer renderer(context(), scene);
         for (const ShadowFilter filter : {ShadowFilter::Traced, ShadowFilter::Pcf})
@@ -47,7 +47,7 @@ protected:
     }
 };
 
-// A ball hides none of its points whose normal faces the light.
+// A ball shadows none of its points whose normal faces the light.
 TEST_F(ShadowTerminators, ofACoarseBallAreThoseOfTheRoundBallThatItApproximates) {
     scenes::Scene scene = coarseBall();
     scene.nodes[0].instances = {{0, 0}};
@@ -104,7 +104,7 @@ TEST_F(ShadowTerminators, ofRealFacetsAreExactToTheLastBit) {
 }
 
 // The corners of a box with averaged normals are 54.7 degrees off its sides, those of a beam without ends 45. Points in
-// the middle of a side would be lifted past what stands on it: here a plate 0.1 m above the upper one.
+// the middle of a side would be lifted past objects on it: here a plate 0.1 m above the upper one.
 TEST_F(ShadowTerminators, ofBoxesWithAveragedNormalsAreExactToTheLastBit) {
     scenes::Scene scene = coarseBall();
     scenes::builtin::appendFloor(scene.meshes.emplace_back(), {0.0, 1.1, 0.0}, {0.4, 0.3}, {1, 1});
@@ -125,16 +125,16 @@ TEST_F(ShadowTerminators, ofBoxesWithAveragedNormalsAreExactToTheLastBit) {
     }
 }
 
-// A square of 2 m whose normals lean by a to both sides of the middle, as on a roll of paper: the planes through its
-// left and right corners lie (1 + x) sin a and (1 - x) sin a above it at x. Their corners weigh (1 - x) / 2 and (1 + x)
-// / 2, so the blend is (1 - x^2) sin a, over the length of the normals' blend. From there the edge of a plate 1 m above
-// throws its shadow that much less far. Normals that lean towards the middle, as in a gutter, lift points as high.
+// A square of 2 m whose normals lean by a to both sides of the middle, as on a roll of paper: at x the planes through
+// its left and right corners lie (1 + x) sin a and (1 - x) sin a above it. With corner weights (1 - x) / 2 and (1 + x)
+// / 2 the blend is (1 - x^2) sin a, over the length of the blended normal. That shortens the shadow of a plate's edge 1
+// m above. Normals that lean towards the middle, as in a gutter, lift points as high.
 TEST_F(ShadowTerminators, pointsAreLiftedToTheBlendOfTheirCornersTangentPlanes) {
     expectLifted(0.15, 1, 1, 5.0, 0.0);
     expectLifted(-0.15, 1, 1, 5.0, 0.0);
 }
-// Fragments that cover a part of their pixel are lifted where they are lit. The origin of lighting space is far aside
-// here, so that from there to the pixel's middle the planes through corners rise by centimetres.
+// Fragments that cover a part of their pixel are lifted where they are shaded. The origin of lighting space is far
+// aside here, so that from there to the pixel's centre the planes through corners rise by centimetres.
 TEST_F(ShadowTerminators, pointsOfPartsOfPixelsAreLiftedToThatBlendToo) {
     expectLifted(0.15, 50, 4, 200.0, 0.7);
 }
@@ -155,7 +155,7 @@ void ShadowTerminators::expectLifted(double lean, int rows, int samples, double 
     scene.meshes[1] = {};
     scenes::builtin::appendFloor(scene.meshes[1], {0.0, kPlateMetres, kPlateEdge - 2.0}, {8.0, 4.0}, {1, 1});
     const glm::dvec3 toEye(std::sin(eyeRadians), std::cos(eyeRadians), 0.0);
-    // Below all, so that the origin of lighting space, which is in the middle of what is seen, lies far from the
+    // Below everything, so that the origin of lighting space, in the middle of the visible geometry, lies far from the
     // square.
     scenes::builtin::appendFloor(scene.meshes[1], -2.0 * eyeMetres * toEye, {8.0, 8.0}, {1, 1});
     scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.0, -kSlope, 1.0));
@@ -179,7 +179,7 @@ void ShadowTerminators::expectLifted(double lean, int rows, int samples, double 
                 const glm::dvec3 originWS = rays.eyeWS() + rays.through(x, y).originRWS;
                 const glm::dvec3 placeWS = originWS - originWS.y / toEye.y * toEye;
                 const double across = placeWS.x;
-                if (std::abs(across) > (samples > 1 ? 0.97 : 1.0)) continue; // pixels of nothing, and of the rim
+                if (std::abs(across) > (samples > 1 ? 0.97 : 1.0)) continue; // uncovered pixels, and the rim
                 const double blend = std::hypot(std::cos(lean), across * std::sin(lean));
                 const bool isLifted = terminator == ShadowTerminator::Softened;
                 const double lift = isLifted ? (1.0 - across * across) * std::abs(std::sin(lean)) / blend : 0.0;
@@ -187,7 +187,7 @@ void ShadowTerminators::expectLifted(double lean, int rows, int samples, double 
                 const double behindStraight = kPlateEdge + kPlateMetres / kSlope - placeWS.z;
                 // Heights are stored in steps of a twelfth at most; rounding loses up to half a step.
                 double leeway = 1e-3 + 0.045 * lift / kSlope;
-                // A fragment is lit up to 3/8 of a pixel from its pixel's middle.
+                // A fragment is shaded up to 3/8 of a pixel from its pixel's centre.
                 if (samples > 1)
                     leeway += 0.375 * (2.0 / 128.0) * (1.0 + 2.0 * std::abs(std::sin(lean)) / kSlope / toEye.y);
                 const float shown = seen[4 * std::size_t(128 * y + x)];
@@ -206,7 +206,7 @@ void ShadowTerminators::expectLifted(double lean, int rows, int samples, double 
     }
 }
 
-// Of triangles smaller than a pixel, whose normals at its centre would be those of places far beside them.
+// Triangles smaller than a pixel, whose normals would be extrapolated far outside of them to the pixel's centre.
 TEST_F(ShadowTerminators, ofAFineBallHaveNoDotsWhereAPixelHasSeveralSamples) {
     scenes::Scene scene = coarseBall();
     scene.nodes[0].instances = {{0, 0}};
@@ -248,7 +248,7 @@ TEST_F(ShadowTerminators, areThoseOfTheReferenceAndOfEveryTechnique) {
         fmt::print("{} pixels wrong, {} undecided (exact {}), {} changed by shadows of {}\n", count.wrong,
                    count.undecided, exact.undecided, count.hidden, count.covered);
         EXPECT_EQ(count.wrong, 0u);
-        // Penumbrae are undecided by the noise of their rays.
+        // In penumbrae the noise of rays leaves pixels undecided.
         EXPECT_LE(count.undecided, exact.undecided + count.covered / 500);
         EXPECT_GT(count.hidden, count.covered / 25);
         expectParity(renderer, settings, techniquesInTurn(turn++));
@@ -261,10 +261,10 @@ TEST_F(ShadowTerminators, areThoseOfTheReferenceAndOfEveryTechnique) {
     }
 }
 
-/// Softened terminators where light wraps around a surface.
+/// Softened terminators with wrapped light.
 class WrappedTerminators : public ShadowTerminators {};
 
-// The edge of a plate throws its shadow on it: wrapped light is asked for from above the surface already.
+// A plate's edge shadows the ball: shadow rays of wrapped light start above the surface already.
 TEST_F(WrappedTerminators, aSurfaceThatWrapsLightIsNotLiftedOffItsTriangles) {
     scenes::Scene scene = coarseBall();
     scene.materials[0] = lambert();

@@ -17,7 +17,7 @@ class ShadowTimesSlow : public ShadowTest {
 protected:
     static constexpr int kRounds = 9;
 
-    /// Milliseconds that passes of the latest frame took.
+    /// GPU milliseconds of the latest frame's passes of this name.
     static double passMs(engine::Renderer& renderer, std::string_view name) {
         double sum = 0.0;
         for (const gpu::PassTiming& pass : renderer.backend().passTimings())
@@ -32,11 +32,11 @@ protected:
         scenes::LoadOptions options;
         options.lights = lights;
         scenes::Scene scene = scenes::loadScene(name, options);
-        // One that nothing is drawn with: changing what it casts has all maps drawn again.
+        // A material without instances: changing whether it casts shadows redraws all maps.
         scene.materials.push_back(scene.materials.front());
         return scene;
     }
-    /// The same with a camera for each face that sees as far as its light reaches, and without lights.
+    /// The scene with a camera per face, which sees as far as its light's range, and without lights.
     static scenes::Scene withFaceCameras(const scenes::Scene& scene, const frame::ShadowMaps& maps) {
         scenes::Scene seen = scene;
         seen.cameras.clear();
@@ -79,7 +79,7 @@ TEST_F(ShadowTimesSlow, mapsTakeAtMostHalfAsLongAgainAsDepthAlone) {
                 drawsDepth.draw(Technique::ForwardPrepass, ofFace);
                 depth += passMs(drawsDepth, "depth_prepass");
             }
-            // The first round makes programs and memory.
+            // The first round compiles programs and allocates memory.
             if (round == 0) continue;
             mapsMs.push_back(passMs(drawsMaps, "shadow_maps"));
             depthMs.push_back(depth);
@@ -92,11 +92,11 @@ TEST_F(ShadowTimesSlow, mapsTakeAtMostHalfAsLongAgainAsDepthAlone) {
     }
 }
 
-/// The ways to find shadows whose look-ups are timed, `none` first.
+/// Shadow filters whose look-ups are timed, `none` first.
 struct Way {
     const char* name;
     std::optional<ShadowFilter> filter;
-    float sizeMetres = 0.0f; ///< of lamps; without one pcss is hard
+    float sizeMetres = 0.0f; ///< of lamps; without a size pcss is hard
 };
 constexpr Way kWays[] = {{"none", {}},
                          {"hard", ShadowFilter::Hard},
@@ -104,7 +104,7 @@ constexpr Way kWays[] = {{"none", {}},
                          {"pcss, 16 samples", ShadowFilter::Pcss, 0.05f},
                          {"traced", ShadowFilter::Traced}};
 
-/// A scene as each way sees it, with maps that are kept from frame to frame.
+/// A scene per shadow filter, with maps that are kept from frame to frame.
 class WaysToTime {
 public:
     WaysToTime(gpu::Context& context, const scenes::Scene& scene, const frame::FrameSettings& settings) {
@@ -123,7 +123,7 @@ public:
             frames.emplace_back(
                 [&own = *seen](const glm::dvec3&) { own.renderer->draw(Technique::ClusteredDeferred, own.settings); });
     }
-    /// Pairs of a pixel and a light with shadows that gives it something, which are those that ask.
+    /// Pairs of a pixel and a light with shadows that lights it; each needs a look-up.
     std::size_t shadowedPairs() {
         Seen& plain = *seen_[0];
         const frame::FrameSettings settings = plain.settings;
@@ -148,7 +148,7 @@ private:
     std::vector<std::unique_ptr<Seen>> seen_;
 };
 
-/// A floor that fills the picture, and so many lamps above it.
+/// A floor that fills the image, below so many lamps.
 scenes::Scene floorBelow(int lamps) {
     scenes::Scene scene = validation::stressFloor();
     scene.lights.clear();
@@ -161,8 +161,8 @@ scenes::Scene floorBelow(int lamps) {
     return scene;
 }
 
-/// The floor of a look-up is that of `hard` where all pixels of a floor ask all lamps: the slope of the time by lamps,
-/// less that without shadows.
+/// The minimum cost of a look-up is that of `hard` where all pixels of a floor query all lamps: the slope of the time
+/// by lamps, less that without shadows.
 TEST_F(ShadowTimesSlow, eachWayIsTimedByPairsAndAgainstTheFloor) {
     frame::FrameSettings settings = ofSize(1280, 720);
     settings.shadows = {scenes::ShadowRequest::Kind::Asked};

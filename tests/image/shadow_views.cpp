@@ -1,4 +1,4 @@
-// The debug views of shadow maps: which face answers a pixel, and the atlas itself. And which settings change shadows.
+// Debug views of shadow maps: the face that a pixel reads, and the atlas itself. And the settings that change shadows.
 #include <array>
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -18,7 +18,7 @@ using frame::DebugView;
 using frame::ShadowFilter;
 using namespace test;
 
-/// Face of the colour that a pixel of the view `cascades` has, however dark; none where it is grey.
+/// The face of a pixel's colour in the view `cascades`, however dark; none where it is grey.
 std::optional<int> faceOf(const glm::vec3& shown) {
     const glm::vec3 direction = glm::normalize(shown);
     float most = glm::dot(direction, glm::normalize(shared::noFaceColor()));
@@ -89,7 +89,7 @@ TEST_F(ShadowViews, areTheSameWhateverElseIsLeftOut) {
     engine::Renderer renderer(context(), scene);
     settings.shadows = {scenes::ShadowRequest::Kind::First, 16};
     settings.shadowFilter = ShadowFilter::Hard;
-    settings.soloLight = 0; // it reaches part of what is in view
+    settings.soloLight = 0; // its range covers part of the view
     for (const DebugView view : {DebugView::Shadow, DebugView::Cascades, DebugView::ShadowAtlas}) {
         SCOPED_TRACE(int(view));
         settings.view = view;
@@ -147,7 +147,7 @@ TEST_F(ShadowViews, theFartherACascadeTheFartherItsPixelsAndTheLastHoldsTheFarth
     }
 }
 
-// A pixel is asked of the finest cascade in which all taps of its filter lie.
+// A pixel reads the finest cascade that contains all taps of its filter.
 TEST_F(ShadowViews, aCascadePassesOverIntoTheNextInItsOuterTenthWithinTheRoomOfTaps) {
     scenes::Scene scene = ballUnderSun();
     scene.nodes[0].instances = {{1, 0}};
@@ -210,7 +210,7 @@ TEST_F(ShadowViews, ofAPointLightEachAxisHasTheColourOfItsFace) {
             glm::dvec3 forwardWS(0.0), upWS(0.0);
             forwardWS[face / 2] = face % 2 == 0 ? 1.0 : -1.0;
             upWS[(face / 2 + 1) % 3] = 1.0;
-            // Narrower than a face, so that none of its neighbours is in the picture.
+            // Narrower than a face, so that none of its neighbours is in the image.
             scene.cameras[0].worldFromCamera = scenes::worldFromLookAt({}, forwardWS, upWS);
             scene.cameras[0].fovYRadians = 0.6;
             engine::Renderer renderer(context(), scene);
@@ -242,7 +242,7 @@ TEST_F(ShadowViews, areGreyWhereNoMapAnswers) {
     EXPECT_EQ(countColored(), 0u) << "no shadows";
 }
 
-/// A lamp a metre above a floor, whose face -y sees the floor straight on and whose face +y sees nothing.
+/// A lamp a metre above a floor: its face -y shows the floor straight on, and its face +y nothing.
 TEST_F(ShadowViews, theAtlasShowsTheDepthsThatItStores) {
     scenes::Scene scene = ballUnderSun();
     scene.nodes[0].instances = {{1, 0}};
@@ -250,7 +250,7 @@ TEST_F(ShadowViews, theAtlasShowsTheDepthsThatItStores) {
     scene.lights[0].rangeMetres = 3.0f;
     settings.shadowFilter = ShadowFilter::Hard;
     settings.shadowMaps.resolutionTexels = 64;
-    settings.sizePixels = {6 * 64, 64}; // a pixel a texel
+    settings.sizePixels = {6 * 64, 64}; // a pixel per texel
     engine::Renderer renderer(context(), scene);
     const std::vector<float> atlas = shown(renderer, DebugView::ShadowAtlas);
     const engine::DrawnShadows shadows = renderer.shadows();
@@ -265,13 +265,13 @@ TEST_F(ShadowViews, theAtlasShowsTheDepthsThatItStores) {
     }
     EXPECT_EQ(pixel(atlas, 2 * 64 + 31, 32), glm::vec4(0, 0, 3, 1)) << "nothing above the lamp";
     EXPECT_EQ(pixel(atlas, 3 * 64, 32).z, -4.0f) << "the rim";
-    // Twice as wide as high: half of the faces below the others.
+    // 1.5 times as wide as high: half of the faces lie below the others.
     settings.sizePixels = {3 * 32, 2 * 32};
     const std::vector<float> strips = shown(renderer, DebugView::ShadowAtlas);
     EXPECT_EQ(pixel(strips, 16, 48).z, 4.0f);
     EXPECT_EQ(pixel(strips, 80, 16), glm::vec4(0, 0, 3, 1));
     EXPECT_NEAR(pixel(strips, 16, 48).x / nearMetres, 1.0, 1e-6);
-    // Beside the atlas.
+    // Outside of the atlas.
     settings.sizePixels = {100, 6};
     EXPECT_EQ(pixel(shown(renderer, DebugView::ShadowAtlas), 0, 3), glm::vec4(0.0f));
 }

@@ -1,4 +1,4 @@
-// Pictures that are shifted by parts of a pixel, and their mean.
+// Images that are shifted by fractions of a pixel, and their mean.
 #include "viewer/show/Smoothing.h"
 
 #include "tests/image/ImageTest.h"
@@ -70,7 +70,7 @@ TEST_F(Smoothed, aShiftByAWholePixelMovesThePictureOfEveryTechniqueByThat) {
                 differing += !isEqual;
                 ++all;
             }
-        // Pixels whose centres an edge passes by a hair.
+        // Pixels with an edge very close to their centres.
         EXPECT_LT(differing, all / 200) << info.name;
     }
 }

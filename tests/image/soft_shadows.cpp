@@ -11,8 +11,8 @@ using engine::Technique;
 using scenes::ShadowRequest;
 using namespace test;
 
-/// The ground of the scene `shadow_truth` as a frame of the view `shadow` shows it: the shares of one light that are
-/// seen there, beside the true ones.
+/// The ground of the scene `shadow_truth` in the view `shadow`: the visible fractions of one light, beside their closed
+/// forms.
 class SoftShadows : public ShadowTest {
 protected:
     using TruthLight = scenes::builtin::ShadowTruthLight;
@@ -27,7 +27,7 @@ protected:
         makeOrthographic(camera, 0.4);
         return scene;
     }
-    /// Looks where the light's shadow is.
+    /// Aims the camera at the light's shadow.
     static void aimAt(scenes::Scene& scene, TruthLight light) {
         const glm::dvec3 targetWS =
             light == TruthLight::Lamp ? glm::dvec3(-2.55, 0.0, 0.0) : glm::dvec3(2.56, 0.0, 0.24);
@@ -107,7 +107,7 @@ TEST_F(SoftShadows, haveTheSharesOfTheirClosedFormsWithinThreeStandardErrors) {
     }
 }
 
-// The plate and the disk are flat and lie across the way to the light, as pcss takes all casters to.
+// The plate and the disk are flat and perpendicular to the light's direction, as pcss assumes of all casters.
 TEST_F(SoftShadows, ofPcssHaveTheWidthsOfTheirClosedForms) {
     for (const TruthLight light : {TruthLight::Lamp, TruthLight::Sun})
         for (const double sizes : {0.25, 0.5, 1.0, 2.0}) {
@@ -134,8 +134,8 @@ TEST_F(SoftShadows, ofPcssHaveTheWidthsOfTheirClosedForms) {
         }
 }
 
-// Noise of independent lights averages out in their sum. A coefficient of N pairs that have nothing to do with each
-// other strays by 1/sqrt(N).
+// Noise of independent lights averages out in their sum. The correlation coefficient of N independent pairs deviates by
+// 1/sqrt(N).
 TEST_F(SoftShadows, ofTwoLightsInOnePlaceHaveNoiseThatIsNotCorrelated) {
     scenes::Scene scene = truthScene();
     aimAt(scene, TruthLight::Lamp);
@@ -169,8 +169,8 @@ TEST_F(SoftShadows, ofTwoLightsInOnePlaceHaveNoiseThatIsNotCorrelated) {
     }
 }
 
-// A penumbra reaches an eighth of a map's side at most. At 30 degrees that is the one of a caster 0.58 of the radius
-// away of the ball that the map is made for.
+// A penumbra is at most an eighth of a map's side wide. At 30 degrees a caster at 0.58 of the radius of the map's
+// bounding sphere has that penumbra.
 TEST_F(SoftShadows, ofSunsTooWideForPcssAreWarnedOf) {
     scenes::Scene scene = truthScene();
     frame::FrameSettings settings = ofSize(32, 18);
@@ -195,7 +195,7 @@ TEST_F(SoftShadows, getBetterWithSamplesAndAreAllOrNothingOutsidePenumbrae) {
     for (const int samples : {1, 4, 16, 64}) {
         const std::vector<Share> shares = rendered(renderer, TruthLight::Lamp, samples);
         const double error = rootMeanSquare(shares);
-        EXPECT_LT(error, before / 2.0) << samples; // of random samples half, of these less
+        EXPECT_LT(error, before / 2.0) << samples; // half for random samples, less for these
         before = error;
         int wrong = 0;
         for (const auto& [seen, truth] : shares) wrong += (truth == 0.0 || truth == 1.0) && seen != truth;
@@ -203,7 +203,7 @@ TEST_F(SoftShadows, getBetterWithSamplesAndAreAllOrNothingOutsidePenumbrae) {
     }
 }
 
-// Doubling the rays moves a share by less than a tenth of the error that it judges, that of 64 samples.
+// Doubling the reference's rays moves a fraction by less than a tenth of the error of 64 samples, which it judges.
 TEST_SWEEP(SoftShadows, ofTheReferenceHaveTheirClosedForms) {
     constexpr double kErrorOf64Samples = 0.0069;
     for (const TruthLight light : {TruthLight::Lamp, TruthLight::Sun}) {
@@ -241,7 +241,7 @@ TEST_SWEEP(SoftShadows, ofTheReferenceHaveTheirClosedForms) {
 
 TEST_F(SoftShadows, areTheSameWhateverElseIsLeftOut) {
     scenes::Scene scene = scenes::loadScene("shadow_truth");
-    // One that gives nothing, which only frames that are not pruned evaluate, before the others.
+    // A light without intensity, which only unpruned frames evaluate, before the others.
     scenes::Light dark = scene.lights[0];
     dark.intensity = 0.0f;
     scene.lights.insert(scene.lights.begin(), dark);
@@ -259,7 +259,7 @@ TEST_F(SoftShadows, areTheSameWithEveryTechniqueToTheLastBit) {
     expectParity(renderer, settings);
 }
 
-/// By 1 sample and by 16, and that a fault is seen; or by 16 alone.
+/// With 1 sample and with 16, and with a fault that must be detected; or with 16 alone.
 TEST_SWEEP(SoftShadows, ofAPictureAreWithinTheirNoiseOfTheReference) {
     const scenes::Scene scene = scenes::loadScene("shadow_truth");
     engine::Renderer renderer(context(), scene);
@@ -278,7 +278,7 @@ TEST_SWEEP(SoftShadows, ofAPictureAreWithinTheirNoiseOfTheReference) {
         ASSERT_TRUE(record.pairs[0].shadows);
         const validation::ShadowFigures& figures = *record.pairs[0].shadows;
         EXPECT_GT(figures.noisyPixels, 1000u);
-        // By one ray the noise is that of independent ones, by 16 it is 0.40.
+        // With one ray the noise is that of independent ones, with 16 it is 0.40.
         EXPECT_LT(figures.noise, samples == 1 ? 1.2 : 0.5) << samples;
         EXPECT_GT(figures.mostNoise, 1.0) << samples;
         EXPECT_LT(figures.mostNoise, 1.15) << samples;

@@ -11,8 +11,8 @@ using namespace test;
 
 constexpr glm::ivec2 kSize = {192, 128};
 
-/// The debug views D, G and F of `head`, and the input of an independent evaluation at each pixel: which material is
-/// seen there, the normal that is lit and the distance, as the engine shows them.
+/// The debug views D, G and F of `head`, against an independent evaluation at each pixel by the material, the shading
+/// normal and the distance that the engine shows.
 class SpecularViews : public ImageTest {
 protected:
     SpecularViews() {
@@ -35,7 +35,7 @@ protected:
     scenes::Scene scene_;
 };
 
-/// Where the pixel's ray is after `metres` along the view axis; pixels in rows from the top.
+/// The point of a pixel's ray after `metres` along the view axis; pixels in rows from the top.
 glm::dvec3 pointAt(const scenes::Camera& camera, std::size_t pixel, double metres) {
     const double x = double(pixel % std::size_t(kSize.x)) + 0.5, y = double(pixel / std::size_t(kSize.x)) + 0.5;
     const double tangent = std::tan(0.5 * camera.fovYRadians);
@@ -48,8 +48,8 @@ struct Terms {
     glm::dvec3 f{0.0};
 };
 
-/// By the formulas as books print them; nothing where the light does not reach the surface's front, and neither D nor G
-/// where a normal map turns the front away from the eye, since there is no highlight.
+/// Textbook formulas. Zero where the light does not reach the surface's front; D and G are also zero where a normal map
+/// turns the front away from the eye, since there is no highlight.
 Terms textbookTerms(const Material& m, const glm::dvec3& n, const glm::dvec3& l, const glm::dvec3& v) {
     using namespace textbook;
     Terms terms;
@@ -71,7 +71,7 @@ Terms textbookTerms(const Material& m, const glm::dvec3& n, const glm::dvec3& l,
     return terms;
 }
 
-/// Of both, which draw views alike (Parity), or of `deferred`.
+/// With both, whose views are equal (Parity), or with `deferred`.
 TEST_SWEEP(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTheLightIsNotSeen) {
     engine::Renderer renderer(context(), scene_);
     const scenes::Camera& camera = scene_.cameras[0];
@@ -93,7 +93,7 @@ TEST_SWEEP(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTh
                 const bool reached =
                     textbook::incident(scene_.lights[std::size_t(light)], positionWS, l) != glm::dvec3(0.0);
                 const glm::dvec3 v = glm::normalize(glm::dvec3(camera.worldFromCamera[3]) - positionWS);
-                // On the border between light and none, and where the surface is seen edge-on, rounding decides.
+                // Rounding decides on the border between light and none, and where the surface is viewed edge-on.
                 if (std::abs(glm::dot(n, l)) < 1e-5 || std::abs(glm::dot(n, v)) < 1e-3) continue;
                 const Terms wanted = reached ? textbookTerms(*material, n, l, v) : Terms{};
                 if (wanted.f == glm::dvec3(0.0)) {
@@ -103,7 +103,7 @@ TEST_SWEEP(SpecularViews, dGAndFOfHeadEqualTheirFormulasAndFIsExactlyZeroWhereTh
                     continue;
                 }
                 ++lit;
-                // D exceeds 1; the others are shares.
+                // D exceeds 1; the others are fractions.
                 worst[0] = std::max(worst[0], std::abs(d[4 * i] - wanted.d) / std::max(1.0, wanted.d));
                 worst[1] = std::max(worst[1], std::abs(g[4 * i] - wanted.g));
                 for (std::size_t c = 0; c < 3; ++c)

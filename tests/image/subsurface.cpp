@@ -11,7 +11,7 @@ using namespace test;
 
 class Subsurface : public ShadowTest {
 protected:
-    /// A head of which all materials that vary have the method.
+    /// The head with this method in its first material.
     static scenes::Scene headWith(SubsurfaceMethod method) {
         scenes::Scene scene = scenes::loadScene("head");
         scene.materials[0].subsurface.method = method;
@@ -19,8 +19,8 @@ protected:
     }
 };
 
-/// Of a head, a scene of everything and one whose G-buffer holds numbers of materials, with every pair of method,
-/// filter and number of samples, or each with some.
+/// A head, a scene of everything and one whose G-buffer stores material indices, with every pair of method, filter and
+/// number of samples, or each with some.
 TEST_SWEEP(Subsurface, everyTechniqueGivesTheSamePictureToTheLastBit) {
     struct Case {
         SubsurfaceMethod method;
@@ -51,8 +51,8 @@ TEST_SWEEP(Subsurface, everyTechniqueGivesTheSamePictureToTheLastBit) {
         expectIn(evenScene(), cases.subspan(1, 1));
         return;
     }
-    // Compiling takes nearly all of the time: the head, of two models, is seen with one technique of each kind, and an
-    // even scene, of nearly all models, with one. Parity draws everything with each material's own method.
+    // Nearly all of the time is compilation: the head, of two models, is drawn with one technique of each kind, and a
+    // uniform scene, of nearly all models, with one. Parity draws everything with each material's own method.
     expectIn(headWith(SubsurfaceMethod::Wrap), cases);
     expectIn(evenScene(), cases.subspan(1, 1), {Technique::TiledDeferred});
 }
@@ -87,15 +87,15 @@ TEST_F(Subsurface, whatIsInTheWayHidesWrappedLightAsTheReferenceSays) {
     EXPECT_LE(count.undecided, count.covered / 50);
 }
 
-// ---- Light that passes through -------------------------------------------------------------------------------------
+// ---- Transmitted light ---------------------------------------------------------------------------------------------
 
-/// What the picture is where the middle of it is, red.
+/// Red at the centre of the image.
 double middleOf(const Picture& picture) {
     return picture.pixel((std::size_t(picture.height) / 2) * std::size_t(picture.width) +
                          std::size_t(picture.width) / 2)[0];
 }
 
-/// Seen from +z by parallel rays, with lights behind.
+/// A body lit from behind by a sun, a lamp and a spot light, viewed from +z by parallel rays.
 scenes::Scene bodyBeforeLights(scenes::Mesh body, double halfHeightMetres) {
     scenes::Scene scene = ballUnderSun();
     scene.meshes = {std::move(body)};
@@ -120,7 +120,7 @@ scenes::Scene bodyBeforeLights(scenes::Mesh body, double halfHeightMetres) {
     return scene;
 }
 
-/// How far each filter may be off, relatively.
+/// Relative tolerances of each filter.
 struct PassageBar {
     frame::ShadowFilter filter;
     double ofSlab, ofBall;
@@ -144,7 +144,7 @@ TEST_SWEEP(Subsurface, aSlabLetsThroughAnExponentialOfItsThickness) {
             for (int light = 0; light < 3; ++light) {
                 settings.soloLight = light;
                 const double found = middleOf(engine::toPicture(renderer.render(Technique::Deferred, settings)));
-                const double full = light == 0 ? 3.0 : 12.0 / 4.0; // of the light on the picture's side
+                const double full = light == 0 ? 3.0 : 12.0 / 4.0; // irradiance on the visible side
                 const double wanted = full * std::exp(-0.02 * 1e3 * thickness);
                 EXPECT_NEAR(found, wanted, bar.ofSlab * wanted) << infoOf(bar.filter).name << " light " << light;
                 sum += found;
@@ -156,7 +156,7 @@ TEST_SWEEP(Subsurface, aSlabLetsThroughAnExponentialOfItsThickness) {
     }
 }
 
-/// Of a light at any angle, at a pixel's place on the front: the way inside, and what leaves at the angle of entry.
+/// Transmission through a slab at a point of its front, by the path length inside; exits at the angle of entry.
 glm::dvec3 behindSlab(const scenes::Scene& scene, const scenes::Light& light, const glm::dvec3& placeWS,
                       double thicknessMetres) {
     const bool isPlaced = scenes::infoOf(light.type).hasPosition();
@@ -167,7 +167,7 @@ glm::dvec3 behindSlab(const scenes::Scene& scene, const scenes::Light& light, co
     return double(light.intensity) / metres2 * cosine * glm::exp(-absorption * (thicknessMetres / cosine));
 }
 
-/// Four faces of a lamp's map lie to its sides; of a way at an angle the part along the slab's normal is 0.64 at most.
+/// Four faces of a lamp's map lie to its sides; an oblique path's part along the slab's normal is 0.64 at most.
 TEST_SWEEP(Subsurface, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
     constexpr double kThickness = 0.01;
     scenes::Mesh slab;
@@ -206,7 +206,7 @@ TEST_SWEEP(Subsurface, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
     }
 }
 
-/// What passes is added to all that is reflected: a white body that absorbs nothing returns up to twice what arrives.
+/// Transmitted light is added to all reflected light: a white body without absorption returns up to twice the light.
 TEST_F(Subsurface, lightThatPassesThroughIsAddedToAllThatIsReflected) {
     scenes::Mesh slab;
     scenes::builtin::appendBox(slab, {-0.5, -0.5, -0.003}, {0.5, 0.5, 0.0});
@@ -224,7 +224,7 @@ TEST_F(Subsurface, lightThatPassesThroughIsAddedToAllThatIsReflected) {
     }
 }
 
-/// The way inside is found among casters. Others are there, so that frames have shadows.
+/// The path inside is found among casters. There are others, so that frames have shadows.
 TEST_F(Subsurface, aBodyThatCastsNoShadowsLetsNoLightThrough) {
     scenes::Mesh slab;
     scenes::builtin::appendBox(slab, {-0.5, -0.5, -0.003}, {0.5, 0.5, 0.0});
@@ -247,7 +247,7 @@ TEST_F(Subsurface, aBodyThatCastsNoShadowsLetsNoLightThrough) {
     }
 }
 
-/// A cascade keeps casters at most a texel's width nearer to the sun than they are, here 6 mm, as the slab is steep.
+/// A cascade stores casters at most a texel's width nearer to the sun than they are, here 6 mm, as the slab is steep.
 TEST_F(Subsurface, aSteepSlabLetsThroughAnExponentialOfItsWayInCoarseCascades) {
     constexpr double kThickness = 0.004;
     scenes::Mesh slab;
@@ -293,8 +293,8 @@ TEST_F(Subsurface, aBallLetsThroughAnExponentialOfItsChords) {
     }
 }
 
-/// A lamp and a spot light behind it, to the side: the way inside is the chord towards them. Where that is shorter than
-/// the radius, a texel of the map, a three-hundredth of it, shows too steep a part of the ball's other side.
+/// A lamp and a spot light behind it, to the side: the path inside is the chord towards them. Where it is shorter than
+/// the radius, a texel of the map, a three-hundredth of it, covers too steep a part of the ball's other side.
 TEST_F(Subsurface, aBallBeforeALampLetsThroughAnExponentialOfItsChords) {
     constexpr double kRadius = 0.02;
     constexpr int kSide = 64;
@@ -350,7 +350,7 @@ TEST_F(Subsurface, whatIsInTheWayHidesLightThatPassesThroughAsTheReferenceSays) 
     engine::Renderer renderer(context(), scene);
     const ShadowReference truth = shadowReference(scene, settings);
     const WrongPixels count = wrongPixels(renderer, settings, truth);
-    // Rounding moves every way inside by a little, and some by more than a hundredth of the light.
+    // Rounding moves every path inside by a little, and some by more than a hundredth of the light.
     const auto undecided = std::ranges::count(truth.shadowed.undecidedShadows, 1);
     fmt::print("head: {} pixels wrong, {} undecided, {} changed by shadows of {}\n", count.wrong, undecided,
                count.hidden, count.covered);

@@ -41,7 +41,7 @@ TEST_F(SurfaceValues, blendingWeighsTheSurfaceByItsOpacity) {
     scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
     const glm::vec3 wanted = 0.25f * glm::vec3(1.0f, 0.5f, 0.25f) + 0.75f * scene.background;
     EXPECT_NEAR(glm::distance(glm::vec3(center(scene)), wanted), 0.0f, 1e-6f);
-    scene.materials[0].alphaMode = scenes::AlphaMode::Opaque; // then opacity does not count
+    scene.materials[0].alphaMode = scenes::AlphaMode::Opaque; // opacity is ignored then
     EXPECT_EQ(glm::vec3(center(scene)), glm::vec3(1.0f, 0.5f, 0.25f));
 }
 
@@ -71,14 +71,14 @@ TEST_F(SurfaceValues, coloursAboveOneKeepTheirLightInEveryLayout) {
         for (const frame::LayoutInfo& layout : frame::layoutTable()) {
             settings.layout = layout.layout;
             const glm::vec4 found = pixel(renderer.render(engine::Technique::Deferred, settings), kSide / 2, kSide / 2);
-            // The other channels' steps: half a percent covers slim's.
+            // Quantisation of the other channels: half a percent covers that of slim.
             EXPECT_LE(glm::distance(found, exact), 0.005f * glm::length(exact)) << layout.name << " " << int(model);
         }
     }
 }
 
 TEST_F(SurfaceValues, aCoatOnABackFaceIsLitAsOnAFront) {
-    Material material; // black below the coat, so that the coat alone is seen
+    Material material; // black below the coat, to isolate it
     material.baseColor = {0.0f, 0.0f, 0.0f, 1.0f};
     material.specularFactor = 0.0f;
     material.clearcoat = 1.0f;
@@ -135,7 +135,7 @@ TEST_F(SurfaceValues, anObjectSpaceMapTurnsWithItsObjectAndATangentSpaceMapWithI
         scene.nodes[0].parentFromNode = glm::rotate(glm::dmat4(1.0), std::numbers::pi, glm::dvec3(0, 0, 1));
         EXPECT_LT(center(scene).r, 0.5f * upright); // upside down: leans away from the light
     }
-    // A picture turned upside down on the same quad: only the texture's content turns.
+    // A texture turned upside down on the same quad: only its content rotates.
     scene.nodes[0].parentFromNode = glm::dmat4(1.0);
     scene.materials[0].normalMapSpace = scenes::NormalMapSpace::Object;
     const float objectSpace = center(scene).r;
@@ -167,7 +167,7 @@ TEST_F(SurfaceValues, aTangentSpaceMapTiltsAlongItsTextureWhereverTheMirroringIs
                 if (mirroredTexture) {
                     for (glm::vec2& uv : mesh.texCoords[0]) uv.x = 1.0f - uv.x;
                 }
-                if (mirroredNode) { // what the world sees stays the same
+                if (mirroredNode) { // the geometry in world space stays the same
                     scene.nodes[0].parentFromNode = glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
                     for (glm::vec3& positionOS : mesh.positionsOS) positionOS.x = -positionOS.x;
                     std::ranges::reverse(mesh.indices);
@@ -188,8 +188,8 @@ TEST_F(SurfaceValues, aTangentSpaceMapTiltsAlongItsTextureWhereverTheMirroringIs
     }
 }
 
-/// KHR_texture_transform. Where u and -v point then, found by hand: coordinates that turn counter-clockwise turn the
-/// picture clockwise.
+/// KHR_texture_transform, with the resulting directions of u and -v, found by hand: coordinates that turn
+/// counter-clockwise turn the image clockwise.
 TEST_F(SurfaceValues, aTransformOfANormalMapTurnsAndMirrorsItsNormals) {
     struct Case {
         glm::vec2 scale;
@@ -215,7 +215,7 @@ TEST_F(SurfaceValues, aTransformOfANormalMapTurnsAndMirrorsItsNormals) {
             const glm::dvec3 texel = glm::dvec3(kTiltedTexel[0], kTiltedTexel[1], kTiltedTexel[2]) * 2.0 / 255.0 - 1.0;
             const glm::dvec3 normalWS =
                 glm::normalize(texel.x * each.alongU + texel.y * each.againstV + texel.z * glm::dvec3(0, 0, 1));
-            EXPECT_NEAR(center(scene).r, std::max(0.0, glm::dot(normalWS, sunWS)), 2e-6); // fp32, and 90 degrees in it
+            EXPECT_NEAR(center(scene).r, std::max(0.0, glm::dot(normalWS, sunWS)), 2e-6); // fp32, also for 90 degrees
         }
     }
 }
@@ -252,7 +252,7 @@ protected:
         if (!std::filesystem::exists(folder_ / "LeePerrySmith.gltf")) GTEST_SKIP() << folder_ << " is not there";
     }
 
-    /// The normals that are lit, seen from the front.
+    /// Shading normals, viewed from the front.
     std::vector<float> normals(NormalMapSpace space, bool flipsGreen) {
         scenes::Scene scene = scenes::loadScene((folder_ / "LeePerrySmith.gltf").string());
         scenes::Material& skin = scene.materials[0];
@@ -291,7 +291,7 @@ TEST_F(ScanNormals, bothBakesOfOneScanGiveNearlyTheSameNormalsUnlessAGreenIsFlip
                "{:.2f}\n",
                agreed, objectFlipped, tangentFlipped);
     // Measured 1.43, 3.23 with a flipped green in tangent space, which tilts normals little, and 48.6 in object space.
-    // The bar of 4 would not see the former.
+    // The required limit of 4 would miss the former.
     EXPECT_LE(agreed, 2.0);
     EXPECT_GT(tangentFlipped, 2.5);
     EXPECT_GT(objectFlipped, 2.5);

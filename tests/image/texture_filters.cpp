@@ -25,10 +25,10 @@ constexpr Filter kMinifying[] = {Filter::Nearest,
                                  Filter::LinearMipmapLinear};
 constexpr Filter kMagnifying[] = {Filter::Nearest, Filter::Linear};
 constexpr Wrap kWraps[] = {Wrap::Repeat, Wrap::ClampToEdge, Wrap::MirroredRepeat};
-/// Filters by wrap modes along u; those along v turn from filter to filter, so that every pair of modes comes up.
+/// Filters by wrap modes along u; those along v change from filter to filter, so that every pair of modes occurs.
 constexpr int kColumns = 12, kRows = 3;
 
-/// Every texel has its own colour, with steps between neighbours and a slope over the whole, so that no level is even.
+/// Every texel has a different colour, with steps between neighbours and a slope overall, so that no level is uniform.
 scenes::Image colourfulImage(glm::ivec2 sizeTexels, scenes::TexelFormat format) {
     scenes::Image image;
     image.name = "colours";
@@ -50,12 +50,12 @@ scenes::Image colourfulImage(glm::ivec2 sizeTexels, scenes::TexelFormat format) 
     return image;
 }
 
-/// How the tiles lie.
+/// Layout of the tiles.
 struct Layout {
     const char* what;
-    glm::dvec2 texelsPerPixel; ///< of a picture of kTexels
+    glm::dvec2 texelsPerPixel; ///< for a texture of kTexels
     float turnRadians = 0.0f;  ///< of the texture
-    double slantDegrees = 0.0; ///< of the wall, seen in perspective; 0: parallel rays meet it squarely
+    double slantDegrees = 0.0; ///< of the wall, in perspective; 0: parallel rays at a right angle
     glm::ivec2 sizeTexels{kTexels, kTexels};
     scenes::TexelFormat format = scenes::TexelFormat::Rgba8Unorm; ///< of sRGB colours; floats are linear
 };
@@ -71,7 +71,7 @@ constexpr Layout kLayouts[] = {
     {"slanted, turned, oblong", glm::dvec2(1.1), 0.4f, 62.0, {64, 16}},
 };
 
-/// A wall of tiles, each with its own sampler; the corner of the picture lies in their middle.
+/// A wall of tiles, each with its own sampler; the texture's corner lies in the middle of each tile.
 scenes::Scene wall(const Layout& layout) {
     scenes::Scene scene = quadScene(unlit());
     scene.images = {colourfulImage(layout.sizeTexels, layout.format)};
@@ -107,8 +107,8 @@ scenes::Scene wall(const Layout& layout) {
     return scene;
 }
 
-/// The range of values that drivers may show includes a texel's code value, which is up to 2 % of its light; over all
-/// pixels such roundings cancel but for those of the smallest levels.
+/// The range of values allowed to drivers includes one code step of a texel, up to 2 % of its light; over all pixels
+/// such roundings cancel except for those of the smallest levels.
 constexpr double kPlainBias = 8e-3;
 
 class TextureFilters : public ImageTest {
@@ -116,7 +116,7 @@ protected:
     struct Judged {
         validation::ErrorFigures figures;
         validation::Verdict verdict;
-        double plainBias = 0.0; ///< against the reference's own value, not the nearest that a driver may show
+        double plainBias = 0.0; ///< against the reference's value, not the nearest one allowed to drivers
     };
     Judged judged(const scenes::Scene& scene, TextureFilter filter, const shader::SourceTree& shaders = {}) {
         frame::FrameSettings settings = ofSize(kColumns * kTilePixels, kRows * kTilePixels);
@@ -136,7 +136,7 @@ protected:
     }
 };
 
-/// Texels of 2x + 1 edges: every pixel's centre lies on a corner of four texels, and any of them may be shown.
+/// Texel coordinates on edges: every pixel's centre lies on a corner of four texels, and any of them may be shown.
 TEST_F(TextureFilters, pixelsOnTheEdgesOfNearestTexelsShowATexelThatMeetsThere) {
     Layout layout{"on edges", glm::dvec2(2.0)};
     scenes::Scene scene = wall(layout);
@@ -148,7 +148,7 @@ TEST_F(TextureFilters, pixelsOnTheEdgesOfNearestTexelsShowATexelThatMeetsThere) 
     }
     const Judged found = judged(scene, TextureFilter::Exact);
     EXPECT_TRUE(found.verdict.ok) << testing::PrintToString(found.verdict.missed);
-    EXPECT_LT(found.figures.excluded, 0.02); // the diagonals of the tiles alone
+    EXPECT_LT(found.figures.excluded, 0.02); // only the diagonals of the tiles
 }
 
 TEST_F(TextureFilters, everyFilterWithEveryWrapModeAgreesWithTheReference) {

@@ -13,8 +13,8 @@ using scenes::TextureSlot;
 
 class TextureValues : public FlatTest {};
 
-/// Implementations may approximate the decoding of 8-bit sRGB; Mesa's llvmpipe takes a polynomial that is off by up
-/// to 1.2e-3. Without decoding, a texel of 128 would be off by 0.29.
+/// Implementations may approximate the decoding of 8-bit sRGB; Mesa's llvmpipe uses a polynomial that is off by up to
+/// 1.2e-3. Without decoding, a texel of 128 would be off by 0.29.
 constexpr double kDecoding = 1.5e-3;
 
 /// IEC 61966-2-1.
@@ -57,7 +57,7 @@ TEST_F(TextureValues, sixteenBitAndFloatTexelsAreReadInFull) {
     const std::array<float, 4> floats = {0.123456f, 7.5f, 1e-4f, 1.0f};
     image.texels.assign(reinterpret_cast<const std::byte*>(floats.data()),
                         reinterpret_cast<const std::byte*>(floats.data() + 4));
-    // Float pictures are linear by nature: no transfer function in any slot.
+    // Float textures are linear: no transfer function in any slot.
     const glm::vec4 found = center(texturedScene(flatScene(unlit()), TextureSlot::BaseColor, image));
     for (int c = 0; c < 3; ++c) EXPECT_EQ(found[c], floats[std::size_t(c)]) << c;
 }
@@ -66,7 +66,7 @@ struct Place {
     int x, y;
 };
 
-/// Where pixel (x, y) finds its texel.
+/// Expects pixel (x, y) to show texel texelOf(x, y).
 void expectTexels(const engine::RenderedFrame& frame, const std::function<Place(int, int)>& texelOf) {
     for (int y = 0; y < kSide; ++y)
         for (int x = 0; x < kSide; ++x) {
@@ -97,21 +97,21 @@ TEST_F(Transforms, anOffsetMovesThePictureAgainstIt) {
 }
 
 TEST_F(Transforms, aScaleRepeatsThePictureThatOften) {
-    // Texel 2x + 1/2 of pixel x's centre lies on an edge; a shift of a quarter takes it inside.
+    // The texel coordinate 2x + 1/2 of pixel x's centre lies on an edge; a shift of a quarter moves it inside.
     expectTexels(moved({{0.03125f, 0.03125f}, {2, 2}, 0}), [](int x, int y) {
         return Place{(2 * x + 1) % 8, (2 * y + 1) % 8};
     });
 }
 
 TEST_F(Transforms, aQuarterTurnTurnsThePictureClockwise) {
-    // KHR_texture_transform: coordinates turn counter-clockwise about the top-left corner, the picture clockwise; the
-    // offset brings it back. The picture's top-left texel ends up at the top right.
+    // KHR_texture_transform: coordinates turn counter-clockwise about the top-left corner, the image clockwise; the
+    // offset brings it back. The image's top-left texel ends up at the top right.
     const float quarter = float(std::numbers::pi / 2.0);
     expectTexels(moved({{0.0f, 1.0f}, {1, 1}, quarter}), [](int x, int y) { return Place{y, 7 - x}; });
 }
 
 TEST_F(Transforms, wrapModesContinueThePictureTheirWay) {
-    // Two picture widths side by side, shifted so that a whole period shows on both sides of the edge.
+    // Two image widths side by side, shifted so that a whole period shows on both sides of the edge.
     const scenes::TextureTransform wide{{-0.46875f, -0.46875f}, {2, 2}, 0};
     const auto column = [](int x) { return 2 * x + 1 - 4; }; // texel column of pixel x, before wrapping
     expectTexels(moved(wide, scenes::Wrap::Repeat), [&](int x, int y) {
@@ -131,7 +131,7 @@ TEST_F(TextureValues, linearMagnificationBlendsAndNearestNeverDoes) {
                                     return std::array<int, 4>{x < 4 ? 0 : 255, 0, 0, 255};
                                 }));
     scenes::TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
-    use.transform = {{0.25f, 0.0f}, {0.5f, 1.0f}, 0.0f}; // two pixels a texel
+    use.transform = {{0.25f, 0.0f}, {0.5f, 1.0f}, 0.0f}; // two pixels per texel
     const auto shades = [&] {
         const engine::RenderedFrame shown = frame(scene);
         return std::ranges::count_if(shown.radiance, [](float v) { return v > 0.01f && v < 0.99f; });
@@ -158,7 +158,7 @@ class ExactFilter : public FlatTest {
 protected:
     static constexpr int kWidth = 8, kHeight = 4; ///< texels
 
-    /// Every texel has its own place as its colour.
+    /// Every texel's colour is its own position.
     static scenes::Image placeImage() {
         std::vector<glm::vec4> texels;
         for (int y = 0; y < kHeight; ++y)
@@ -182,7 +182,7 @@ protected:
         return size - 1 - (beyond >= 0 ? beyond : -(1 + beyond));
     }
 
-    /// The wrapped index at a place between texel centres, which lie at whole numbers.
+    /// The wrapped index, interpolated between texel centres, which lie at integers.
     static double blended(double place, int size, scenes::Wrap wrap) {
         const int first = int(std::floor(place));
         const double weight = place - first;
@@ -196,7 +196,7 @@ TEST_F(ExactFilter, everyPairOfWrapModesFindsAndBlendsItsOwnTexels) {
     Scene scene = texturedScene(flatScene(unlit()), TextureSlot::BaseColor, placeImage());
     scenes::TextureUse& use = scene.materials[0].texture(TextureSlot::BaseColor);
     use.sampler.magnification = use.sampler.minification = scenes::Filter::Linear;
-    // Pixel (x, y) reads the place (5x, 3y) + start: more than a period before the picture and after it, each way.
+    // Pixel (x, y) reads the place (5x, 3y) + start: more than a period before the image and after it, each way.
     const glm::dvec2 step(5.0, 3.0), size(kWidth, kHeight);
     constexpr scenes::Wrap kModes[] = {scenes::Wrap::Repeat, scenes::Wrap::ClampToEdge, scenes::Wrap::MirroredRepeat};
     for (const glm::dvec2 start : {glm::dvec2(-17.0, -11.0), glm::dvec2(-17.25, -11.625)}) {
@@ -231,7 +231,7 @@ TEST_F(ExactFilter, theSecondSetOfCoordinatesAlsoSaysWhetherTexelsAreTakenSingly
     use.texCoordSet = 1;
     use.sampler.magnification = scenes::Filter::Linear;
     use.sampler.minification = scenes::Filter::Nearest;
-    // As above; a pixel steps over 5 and 3 texels, so the picture is minified.
+    // As above; a pixel steps over 5 and 3 texels, so the texture is minified.
     const glm::dvec2 step(5.0, 3.0), size(kWidth, kHeight), start(-17.25, -11.625);
     use.transform.scale = double(kSide) * step / size;
     use.transform.offset = (start + 0.5 - 0.5 * step) / size;

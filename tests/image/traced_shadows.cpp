@@ -24,7 +24,7 @@ void addFloor(scenes::Scene& scene, const glm::dvec3& middleOS, double sideMetre
     scene.nodes[0].instances.push_back({std::int32_t(scene.meshes.size()) - 1, 0});
 }
 
-/// A small picture of the first light alone.
+/// A small image of the first light alone.
 frame::FrameSettings shadowsOfTheFirstLight() {
     frame::FrameSettings settings = withShadows(ofSize(128, 72));
     settings.soloLight = 0;
@@ -57,7 +57,7 @@ frame::FrameSettings hallWithRunsBeside() {
     return ofSize(980, 778);
 }
 
-// Beside a triangle of one pixel, the rasteriser runs invocations whose rays meet all boxes of the tree.
+// Beside a triangle of one pixel, the rasteriser runs helper invocations, whose rays meet all boxes of the tree.
 TEST_F(Shadows, aPixelIsLitByAllItsLightsWhateverIsRunBesideIt) {
     const scenes::Scene scene = scenes::loadScene("hall");
     engine::Renderer renderer(context(), scene);
@@ -70,7 +70,7 @@ TEST_F(ShadowsSlow, aPixelIsLitByAllItsLightsWhateverIsRunBesideItAndElseIsNaN) 
     engine::Renderer renderer(context(), scene);
     const auto radiance = renderer.render(engine::Technique::ClusteredForward, settings).radiance;
     EXPECT_EQ(radiance, renderer.render(engine::Technique::ClusteredDeferred, settings).radiance);
-    // Where such rays are walked after all, Mesa ends the pixel's loops: it is NaN, and not dark.
+    // If such rays are walked after all, Mesa ends the pixel's loops: it is NaN, and not dark.
     const ShaderMutant shaders("lib/shadow/caster_walk.glsl", "isBehind || IS_HELPER ?", "isBehind ?");
     engine::Renderer faulty(context(), scene, shaders.tree());
     const auto ended = faulty.render(engine::Technique::ClusteredForward, settings).radiance;
@@ -103,8 +103,8 @@ TEST_F(Shadows, noPixelIsWrongBeyondRounding) {
     }
 }
 
-// In the light of all, what is wrong with a dim one would not be seen.
-/// Lights of the hall: all that cast shadows, or every fourth of them.
+// With all lights on, errors of a dim one would be invisible.
+/// All lights of the hall that cast shadows, or every fourth of them.
 TEST_SWEEP(Shadows, ofEachLightOfTheHallAloneNoPixelIsWrong) {
     const ShadowCase& hall = kShadowCases[2];
     const scenes::Scene scene = sceneOf(hall);
@@ -164,8 +164,7 @@ TEST_SWEEP(Shadows, noSunPutsAcneOnASphereAndAPlane) {
     EXPECT_LE(double(count.undecided), 0.0009 * double(count.covered));
 }
 
-// A model may hold a stray triangle. It must not take the digits of all others, and the reference must not lose with
-// us.
+// A model may contain a stray triangle. It must not cost all others their precision, neither here nor in the reference.
 TEST_F(Shadows, aStrayTriangleFarAwayHidesAndRevealsNothing) {
     scenes::Scene scene = ballUnderSun();
     scene.lights[0].directionWS = {-0.4, -0.8, -0.3};
@@ -220,7 +219,7 @@ TEST_F(Shadows, aCasterFarAwayTowardsTheSunHidesIt) {
     EXPECT_LE(count.undecided, count.covered / 20);
 }
 
-// The corners of a huge triangle are rounded by metres, and all of it with them.
+// The corners of a huge triangle are rounded by metres, and so is all of it.
 TEST_F(Shadows, whereRoundingDecidesTheReferenceSaysSoWhateverTheLightsSize) {
     scenes::Scene scene = ballUnderSun();
     scene.lights[0].directionWS = {-0.4, -0.8, -0.3};
@@ -239,7 +238,7 @@ TEST_F(Shadows, whereRoundingDecidesTheReferenceSaysSoWhateverTheLightsSize) {
     }
 }
 
-// Depths of neighbours differ by few roundings there, so that a triangle's normal is known to some degrees only.
+// Depths of neighbouring pixels differ by few roundings there, so that a triangle's normal is off by some degrees.
 TEST_F(Shadows, aSurfaceDoesNotHideLightsBeforeItHoweverCloselyItIsSeen) {
     scenes::Scene scene = ballUnderSun();
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.2, 0.9, 0.3)), aside = {0.8, 0.0, -0.6};
@@ -276,7 +275,7 @@ TEST_F(Shadows, aSurfaceDoesNotHideLightsBeforeItHoweverCloselyItIsSeen) {
     }
 }
 
-/// A floor, 2 m wide and deep, and a wall that stands on its far edge, as high and twice as wide, seen slantwise.
+/// A floor, 2 m wide and deep, and a wall that stands on its far edge, as high and twice as wide, viewed obliquely.
 scenes::Scene floorBeforeWall() {
     scenes::Scene scene = scenes::loadScene("room");
     scene.meshes.clear();
@@ -293,7 +292,7 @@ scenes::Scene floorBeforeWall() {
     return scene;
 }
 
-// Their triangles bring vertices of their own, with which all meshes move in the buffers.
+// Shadow casters have additional vertices, which move all meshes in the buffers.
 TEST_F(Shadows, thatAreTurnedOnLaterAreThoseOfANewRenderer) {
     const scenes::Scene scene = everythingScene();
     engine::Renderer renderer(context(), scene), newRenderer(context(), scene);
@@ -316,8 +315,8 @@ TEST_F(Shadows, ofASceneWithoutTrianglesNothingIsMissingWhereAllFeaturesAre) {
     expectPruningIsUnseen(renderer, settings);
 }
 
-// With several samples a pixel on the edge between the two is lit once for each of them, and its centre lies on one
-// only: beyond the edge the floor's plane goes on behind the wall, and the wall's below the floor.
+// With several samples, a pixel on the edge between the two is lit once for each of them, and its centre lies on one
+// only: beyond the edge the floor's plane continues behind the wall, and the wall's below the floor.
 TEST_F(Shadows, severalSamplesAreLitWhereTheirTriangleIsAndNotBehindTheNext) {
     scenes::Scene scene = floorBeforeWall();
     frame::FrameSettings settings = withSamples(withView(withShadows(ofSize(160, 90)), frame::DebugView::Shadow), 4);

@@ -1,4 +1,4 @@
-// Surfaces that show what is behind them, in the order in which they are drawn.
+// Transparent surfaces and the order in which they are drawn.
 #include "tests/image/EnvironmentTest.h"
 #include "tests/image/ImageTest.h"
 
@@ -10,8 +10,8 @@ using namespace test;
 
 class Transparency : public EnvironmentTest {};
 
-/// Triangles that face away are drawn before those that face the camera, in the reference too: of a convex shell each
-/// pixel has one of either, and the order in which a file lists them is no matter.
+/// Triangles that face away are drawn before those that face the camera, in the reference too. A convex shell has one
+/// of each in every pixel, so that the order of triangles in the file does not matter.
 TEST_F(Transparency, aConvexShellLooksTheSameInAnyOrderOfItsTriangles) {
     scenes::Material tinted = materialOf(scenes::MaterialModel::MetallicRoughness, {0.9f, 0.4f, 0.2f, 0.5f});
     tinted.doubleSided = true;
@@ -41,14 +41,14 @@ TEST_F(Transparency, aConvexShellLooksTheSameInAnyOrderOfItsTriangles) {
             before = seen;
             const validation::ReferencePicture truth = strictReference(scene, settings);
             for (std::size_t i = 0; i < seen.size(); ++i) {
-                if (i % 4 == 3) continue; // the share that is covered
+                if (i % 4 == 3) continue; // coverage
                 ASSERT_NEAR(seen[i], truth.picture.rgba[i], 2e-4) << i << ", reversed " << isReversed;
             }
         }
     }
 }
 
-/// The view ids as outlines take it: of the nearest surface, whether or not light passes through it.
+/// The view ids for outlines: ids of the nearest surface, transparent or not.
 class NearestIds : public ImageTest {};
 
 TEST_F(NearestIds, areThoseOfASceneWithoutTransparentSurfaces) {

@@ -1,4 +1,4 @@
-// Hooks that move vertices: every pass and technique, their bound, and the reference.
+// Hooks that move vertices: passes and techniques, their bound, and the reference.
 #include <gmock/gmock.h>
 
 #include "base/Error.h"
@@ -71,7 +71,7 @@ TEST_SWEEP(VertexHooks, everyTechniqueDrawsThemAlikeAtAnyTimeInAnyOrder) {
     expectParity(renderer, settings, techniquesInTurn(0));
 }
 
-/// A quad that its own texture coordinates move is the quad whose vertices lie there.
+/// A quad moved by its own texture coordinates is the quad whose vertices lie there.
 TEST_F(VertexHooks, theyGetTheTextureCoordinatesOfTheirVertex) {
     scenes::Scene scene = quadScene(unlit()), there = scene;
     scenes::Mesh& mesh = there.meshes[0];
@@ -136,7 +136,7 @@ TEST_F(VertexHooks, loopsThatAreEndedAreRefused) {
 
 class MovedTooFar : public VertexHooks {
 protected:
-    /// Colour in the middle row, at a share of the picture's width.
+    /// Colour in the middle row, at a fraction of the image's width.
     glm::vec3 shown(engine::Renderer& renderer, Technique technique, double share) {
         frame::FrameSettings settings = smallSettings();
         settings.view = frame::DebugView::MovedTooFar;
@@ -163,7 +163,7 @@ TEST_F(MovedTooFar, verticesThatLeaveTheirBoundArePaintedAndTheFrameIsDrawn) {
         engine::Renderer renderer(context(), scene);
         for (const Technique technique : {Technique::Forward, Technique::Deferred})
             for (const auto& [share, wanted] : {std::pair(0.45, tried.left), std::pair(0.55, tried.right)}) {
-                // Between them 0.4 and 1 times as bright, by how a surface faces the eye.
+                // Shaded 0.4 to 1 times as bright, by how the surface faces the eye.
                 const glm::vec3 found = shown(renderer, technique, share);
                 const float bright = std::max({found.r, found.g, found.b}),
                             most = std::max({wanted.r, wanted.g, wanted.b});
@@ -202,7 +202,7 @@ TEST_F(MovedTooFar, onlyTheVerticesThatDoAreAndOtherFramesDoNotShowIt) {
 
 constexpr const char* kHookSamples[] = {"flag", "pulsating_lattice", "head_sick"};
 
-/// At the ends of their parameters.
+/// Hooks of the sample scenes, at the limits of their parameters.
 class SampleHooks : public HookTest {
 protected:
     static scenes::Scene sample(std::string_view name) {
@@ -224,7 +224,7 @@ TEST_SWEEP(SampleHooks, verticesStayWithinMayMoveMetres) {
     }
 }
 
-/// Whatever sines become of a billion.
+/// Whatever the sine of a billion is.
 TEST_F(SampleHooks, verticesStayWithinMayMoveMetresAfterABillionSeconds) {
     for (const char* name : kHookSamples) {
         SCOPED_TRACE(name);

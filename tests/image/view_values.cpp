@@ -66,7 +66,7 @@ TEST_F(ViewValues, theDiffuseViewIsExactlyTheBaseColourOfEveryModel) {
     }
 }
 
-/// Where the quad of these tests faces, tilted by a map, in the three spaces.
+/// The quad's normal, tilted by a map, in the three spaces.
 TEST_F(ViewValues, oneNormalIsShownInWorldViewAndObjectSpace) {
     Material material;
     material.normalMapSpace = scenes::NormalMapSpace::Object;
@@ -173,7 +173,7 @@ TEST_F(ViewValues, storedChannelsShowTheGBufferBitForBit) {
     for (scenes::Node& node : scene.nodes)
         for (scenes::MeshInstance& instance : node.instances) instance.material = int(scene.materials.size()) - 1;
     ASSERT_EQ(scene.materials.size(), 2u);
-    // Out of the picture, so that the first material is in use and the second one's number is 1.
+    // Out of the image, so that the first material is in use and the second one's index is 1.
     scene.nodes.push_back(scene.nodes.back());
     scene.nodes.back().instances.front().material = 0;
     scene.nodes.back().parentFromNode[3] += glm::dvec4(100.0, 0.0, 0.0, 0.0);
@@ -188,11 +188,11 @@ TEST_F(ViewValues, storedChannelsShowTheGBufferBitForBit) {
     EXPECT_EQ(pixel(stored(frame::Channel::Normal, false, exact), 4, 4), glm::vec4(0, 0, 1, 1));
     EXPECT_EQ(stored(frame::Channel::Normal, false, exact).display[0], 128) << "directions are n/2 + 1/2";
     EXPECT_EQ(pixel(stored(frame::Channel::Normal, true, exact), 4, 4).r, 0.25f) << "alpha";
-    // Fields as shares of their largest codes. The normal's are octahedral: 0 is the middle of an odd number of steps.
+    // Fields as fractions of their largest codes. The normal is octahedral: 0 is the middle of an odd number of steps.
     const float middle = 16383.0f / 32767.0f;
     EXPECT_EQ(pixel(stored(frame::Channel::Normal, false, packed), 4, 4), glm::vec4(middle, middle, 0, 1));
-    // The square root of the colour in 10 bits, of which 1020 steps, a multiple of five, are used; between two steps
-    // either is taken.
+    // The square root of the colour in 10 bits, of which 1020 steps, a multiple of five, are used; a value between two
+    // steps rounds to either.
     const glm::vec4 codes = pixel(stored(frame::Channel::Albedo, false, packed), 4, 4) * 1023.0f;
     EXPECT_NEAR(codes.r, 0.5 * 1020.0, 1e-3);
     EXPECT_NEAR(codes.g, std::sqrt(0.5) * 1020.0, 1.0);
@@ -200,7 +200,7 @@ TEST_F(ViewValues, storedChannelsShowTheGBufferBitForBit) {
     for (const float code : {codes.r, codes.g, codes.b}) EXPECT_NEAR(code, std::round(code), 1e-4) << "a whole code";
 }
 
-/// There the frame that turns the tangent is off least where the stored normal is (docs/numerics.md).
+/// There the error of the stored normal affects the tangent's frame least (docs/numerics.md).
 TEST_F(ViewValues, aTangentIsStoredBesideTheAxisFarthestFromItsNormal) {
     Material material = materialOf(MaterialModel::MicrofacetAnisotropic);
     const Scene upright = flatScene(material);
@@ -271,7 +271,7 @@ TEST_F(ViewValues, aLightThatIsDarkHasNoHighlightToShowAndAnotherNeverStandsInFo
     for (const Technique technique : {Technique::Forward, Technique::Deferred}) {
         scene.lights[0].intensity = 1.0f;
         EXPECT_GT(brightest(technique), 0.1f);
-        scene.lights[0].intensity = 0.0f; // it is the light that is shown still, and nothing packs it
+        scene.lights[0].intensity = 0.0f; // it is still the displayed light, but not packed
         EXPECT_EQ(brightest(technique), 0.0f);
     }
 }

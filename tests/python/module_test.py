@@ -274,7 +274,7 @@ class Errors(Folder):
 
     def testAFolderOfTheCacheMayHaveANameThatIsNoUtf8(self):
         says = "import tessera; tessera.render('lamps', lights=1, size=(16, 9))"
-        # Mesa names the folder too, by its bytes.
+        # Mesa prints the folder's raw bytes too.
         result = subprocess.run([sys.executable, "-c", says], capture_output=True, text=True, errors="replace", timeout=300,
                                 env={**os.environ, "XDG_CACHE_HOME": os.fsdecode(b"/dev/null/\xff")})
         self.assertEqual(result.returncode, 0, result.stderr)

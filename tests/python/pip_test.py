@@ -20,7 +20,7 @@ import unittest
 
 from find_module import FOLDER, REPOSITORY, skip, tessera
 
-# Where setuptools builds, in distutils' own words.
+# Build folders of setuptools, in the configuration format of distutils.
 BUILD = """
 [build]
 build_base = {folder}/made
@@ -30,7 +30,7 @@ build_temp = {build}
 egg_base = {folder}/made
 """
 
-# Run by the environment's Python. Reading a picture takes OpenImageIO, whose module must have come along.
+# Run by the environment's Python. Reading an image needs OpenImageIO, so its module must be installed too.
 SCRIPT = """
 import importlib.metadata, json, pathlib, tessera
 picture = tessera.render("spheres", size=(48, 27), technique="deferred")
@@ -49,8 +49,8 @@ class Pip(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name).resolve()
         (self.folder / "made").mkdir()
-        # pip's build names its own Python in the folder's cache, which later builds would keep. One that is newer than the
-        # build files has the next build configure again.
+        # pip's build writes its own Python into the folder's CMake cache, which later builds would keep. The restored
+        # cache is newer than the build files, so the next build configures again.
         cache = pathlib.Path(FOLDER) / "CMakeCache.txt"
         self.addCleanup(cache.write_text, cache.read_text())
         (self.folder / "python").symlink_to(REPOSITORY / "python")
@@ -81,7 +81,7 @@ class Pip(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    # From 3.12 on Python brings no setuptools of its own into an environment.
+    # From Python 3.12 on, a new environment contains no setuptools.
     needed = ["ensurepip", "wheel", *(["setuptools"] if sys.version_info >= (3, 12) else [])]
     missing = [name for name in needed if not importlib.util.find_spec(name)]
     if missing:

@@ -9,7 +9,7 @@
 
 namespace tessera::test {
 
-/// Models of Khronos that have clips, skins or morph targets, below the folder of third-party models.
+/// Khronos models with clips, skins or morph targets, below the folder of third-party models.
 inline constexpr std::string_view kAnimatedModels[] = {"Fox/Fox.glb",
                                                        "SimpleSkin/SimpleSkin.gltf",
                                                        "RiggedSimple/RiggedSimple.glb",
@@ -27,7 +27,7 @@ inline constexpr std::string_view kAnimatedModels[] = {"Fox/Fox.glb",
                                                        "AnimatedColorsCube/AnimatedColorsCube.glb",
                                                        "BoxAnimated/BoxAnimated.glb"};
 
-/// A file of the folder that TESSERA_ASSETS names, else of the one beside the sources; none where it is not there.
+/// A file in the folder that TESSERA_ASSETS names, else in the assets folder beside the sources; none if missing.
 inline std::optional<std::filesystem::path> fileOfAssets(std::string_view name) {
     const char* named = std::getenv("TESSERA_ASSETS");
     const std::filesystem::path folder = named != nullptr && *named != '\0'
@@ -38,15 +38,15 @@ inline std::optional<std::filesystem::path> fileOfAssets(std::string_view name) 
     return file;
 }
 
-/// Models of the repository that move, which everybody has: a bar that a skin bends, a box with morph targets, a plate
-/// whose thin film a clip moves.
+/// Animated models of the repository, available everywhere: a bar bent by a skin, a box with morph targets, a plate
+/// whose thin film a clip animates.
 inline constexpr std::string_view kOwnModels[] = {"skinned_bar.gltf", "morphing_box.gltf", "textured_film.gltf"};
 
 inline std::filesystem::path ownModelsFolder() {
     return std::filesystem::path(TESSERA_SOURCE_DIR) / "tests" / "support" / "models";
 }
 
-/// The folder that TESSERA_ASSETS names, else that of the models of the repository.
+/// The folder that TESSERA_ASSETS names, else the folder of the repository's models.
 inline std::filesystem::path sweptFolder() {
     const char* named = std::getenv("TESSERA_ASSETS");
     return named != nullptr && *named != '\0' ? std::filesystem::path(named) : ownModelsFolder();

@@ -22,11 +22,11 @@ constexpr auto typesThat() {
 }
 } // namespace detail
 
-/// The types of the table that shine from a surface, and those of them that have a front and a back.
+/// Light types that emit from a surface, and those of them that have a front and a back.
 inline constexpr auto kAreaTypes = detail::typesThat<&scenes::LightTypeInfo::isArea>();
 inline constexpr auto kFlatTypes = detail::typesThat<&scenes::LightTypeInfo::isFlat>();
 
-/// An outline of these corners, in metres.
+/// A polygon outline with these corners, in metres.
 inline scenes::LightCorners cornersOf(std::initializer_list<glm::vec2> places) {
     scenes::LightCorners corners;
     corners.count = 0;

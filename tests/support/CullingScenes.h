@@ -5,25 +5,24 @@
 
 namespace tessera::test {
 
-/// A random scene to try light culling on: a floor, boxes and cards, some of them transparent, seen by a perspective or
-/// orthographic camera of random place, lens and depth range, and lit by lights of every kind, falloff, range and cone,
-/// some of which hold the camera or lie behind it. The same for the same seed.
+/// A random scene for tests of light culling: a floor, boxes and cards, some of them transparent, viewed by a random
+/// perspective or orthographic camera, and lit by point, spot and directional lights of every falloff, range and cone,
+/// some of which contain the camera or lie behind it. The same for the same seed.
 scenes::Scene randomLitScene(std::uint64_t seed);
 
-/// The scene with four faint lights without end besides its own, one of each kind: all such scenes are drawn by the
-/// same programs.
+/// Adds four faint lights of infinite range, one of each kind, so that all such scenes are drawn by the same programs.
 scenes::Scene withEveryKindOfLight(scenes::Scene scene);
 
-/// The same picture, nearly, from so many times as far away: the eye stands back along its axis, a perspective lens is
-/// the narrower, and the near and far planes stay where they are.
+/// Nearly the same view from `times` as far away: the eye moves back along its axis, a perspective field of view
+/// narrows, and the near and far planes stay where they are.
 scenes::Camera seenFromAfar(scenes::Camera camera, double times);
 
-/// Deep discontinuities of depth: two rows of columns and a curtain of leaf-like cards before a far wall, with `lights`
-/// small lights in the room between.
+/// A scene of large depth discontinuities: two rows of columns and a curtain of leaf-like cards before a far wall, with
+/// `lights` small lights between.
 scenes::Scene columnsBeforeWall(int lights);
 
-/// A scene with `lights` white lights of that range, anywhere within its bounds, in place of its own, seen along its
-/// longest horizontal side from within: a fifth of it from the one end, 30 % of its height up.
+/// The scene with its lights replaced by `lights` white lights of that range at random positions within its bounds. A
+/// camera inside looks along the longer horizontal side, from a fifth of it and 30 % of the height.
 scenes::Scene litFromWithin(scenes::Scene scene, int lights, float rangeMetres);
 
 } // namespace tessera::test

@@ -5,7 +5,7 @@
 
 namespace tessera::test {
 
-/// Sets a variable of the process's environment while it lives, or unsets it where the value is null.
+/// Sets an environment variable during its lifetime, or unsets it if the value is null.
 class EnvironmentVariable {
 public:
     EnvironmentVariable(const char* name, const char* value) : name_(name) {

@@ -3,7 +3,7 @@
 
 namespace tessera::test {
 
-/// What an error of this type says that the work throws; empty where it throws none.
+/// The message of the `Error` that `work` throws; empty if it throws none.
 template <typename Error, typename Work>
 std::string errorText(const Work& work) {
     try {

@@ -1,4 +1,4 @@
-/// A full disk for tests: writes beyond a size fail.
+/// Simulates a full disk: writes beyond a size fail.
 #pragma once
 
 #include <csignal>
@@ -6,7 +6,7 @@
 
 namespace tessera::test {
 
-/// Makes every write beyond `bytes` of a file fail with "File too large", while it lives.
+/// Makes every write beyond `bytes` of a file fail with "File too large" during its lifetime.
 class FileSizeLimit {
 public:
     explicit FileSizeLimit(rlim_t bytes) : oldHandler_(std::signal(SIGXFSZ, SIG_IGN)) {

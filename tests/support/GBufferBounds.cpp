@@ -19,7 +19,7 @@ int largestCode(int width) {
 double share(int width) {
     return 1.0 / largestCode(width);
 }
-/// Steps are the largest multiple of 5 that fits.
+/// One step of a square root; the number of steps is the largest multiple of 5 that fits.
 double root(int width) {
     return 1.0 / (largestCode(width) / 5 * 5);
 }
@@ -27,14 +27,14 @@ double fourthRootOfAlpha(int width) {
     return share(width) * (1.0 - std::pow(ALPHA_MIN, 0.25));
 }
 /// A step d = 2/(2^width - 2) of both coordinates moves a point of the octahedron |x| + |y| + |z| = 1 by at most
-/// sqrt(6) d, and a face's centre is 1/sqrt(3) from the middle.
+/// sqrt(6) d, and the octahedron's points are at least 1/sqrt(3) from its centre.
 double octahedralDegrees(int width) {
     return std::sqrt(18.0) * 2.0 / (largestCode(width) - 1) * kDegrees;
 }
-/// A tangent leans as far as its normal, and turns about it by half its own step and with the frame that the decoder
-/// builds from a normal that is off: by up to tan 35.3 degrees = sqrt(1/2) of the normal's error, 35.3 degrees being
-/// the normal's largest elevation over the plane at right angles to the axis farthest from it. Half a step of the
-/// diamond is farthest round at the middle of a side, where it counts twice.
+/// A tangent tilts as far as its normal, and rotates about it by half its step and with the frame that the decoder
+/// builds from an inexact normal: by up to tan 35.3 degrees = sqrt(1/2) of the normal's error, 35.3 degrees being the
+/// normal's largest elevation over the plane perpendicular to the axis farthest from it. Half a step of the diamond
+/// rotates most at the middle of a side, where it counts twice.
 double tangentDegrees(const FieldWidths& tangent, const FieldWidths& normal) {
     const double lean = octahedralDegrees(normal[0]);
     const double turn = 2.0 / (largestCode(tangent[1]) - 1) * kDegrees + std::sqrt(0.5) * lean;
@@ -43,12 +43,12 @@ double tangentDegrees(const FieldWidths& tangent, const FieldWidths& normal) {
 double contrastOfIor(int width) {
     return 2.0 / (largestCode(width) / 10 * 10);
 }
-/// 8 bits are of the exponent; the mantissa has the rest and a leading 1.
+/// 8 bits hold the exponent; the mantissa has the rest and a leading 1.
 double relativeOfFloat(int width) {
     return std::ldexp(1.0, -(width - 8));
 }
-/// Of the largest colour. A step is 2^(exponent - width), and the largest colour at least 2^(exponent - 1); or it is
-/// rounded up there from less than a step below, in the steps of the exponent before.
+/// Error relative to the largest colour. A step is 2^(exponent - width), and the largest colour is at least 2^(exponent
+/// - 1), or is rounded up to it from less than a step below, in steps of the next lower exponent.
 double relativeOfSharedExponent(const FieldWidths& widths, std::size_t color) {
     const int coarsest = std::min({widths[1], widths[2], widths[3]});
     return std::ldexp(2.0, -widths[color]) / (1.0 - std::ldexp(1.0, -coarsest));
@@ -101,7 +101,7 @@ std::vector<FieldBound> fieldBounds(Encoding encoding) {
 RadianceRange radianceRange(Encoding encoding) {
     assert(encoding != Encoding::Exact);
     const FieldWidths& widths = widthsIn(encoding, Channel::Emission);
-    const int top = (1 << (widths[0] - 1)) + 4; // as topExponent() of shaders/lib/gbuffer/gbuffer_encodings.glsl
+    const int top = (1 << (widths[0] - 1)) + 4; // equals topExponent() of shaders/lib/gbuffer/gbuffer_encodings.glsl
     return {std::ldexp(1.0, top - largestCode(widths[0]) - 1), std::ldexp(1.0 - std::ldexp(1.0, -widths[1]), top)};
 }
 

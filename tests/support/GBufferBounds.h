@@ -4,22 +4,22 @@
 
 #include "renderer/frame/GBufferLayout.h"
 
-/// How far a stored value may lie from the surface's, derived from the widths of its field: one step, since which of
-/// the two nearest steps a pixel takes is dithered (shaders/lib/gbuffer/gbuffer_dither.glsl); half of one for
-/// the directions of tangents and coats, which are rounded. The derivations stand in docs/numerics.md. Rounding of the
-/// fp32 arithmetic before a step is taken, some 1e-6, comes on top.
+/// Error bounds of stored G-buffer values, derived from the widths of their fields. A bound is one step, because
+/// dithering selects which of the two nearest steps a pixel takes (shaders/lib/gbuffer/gbuffer_dither.glsl); half a
+/// step for directions of tangents and coats, which are rounded. Derivations: docs/numerics.md. Rounding of the fp32
+/// arithmetic before quantisation, some 1e-6, comes on top.
 namespace tessera::frame {
 
 struct FieldBound {
     Channel channel;
-    std::string_view quantity; ///< what the error is of
+    std::string_view quantity; ///< the quantity that the error refers to
     std::string_view unit;     ///< empty: none
     double bound;              ///< the largest error
 };
-/// In table order, of every quantity in a channel with this encoding, which is not Exact.
+/// Bounds of every quantity of every channel in this encoding, in table order. The encoding must not be Exact.
 std::vector<FieldBound> fieldBounds(Encoding encoding);
 
-/// Emission is held at `most`; where the largest colour is below `least`, the error is that of `least`.
+/// Emission is clamped to `most`; if the largest colour is below `least`, the error is that of `least`.
 struct RadianceRange {
     double least;
     double most;

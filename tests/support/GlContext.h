@@ -10,9 +10,8 @@
 
 namespace tessera::test {
 
-/// The one context of a test program, made at its first use and given back before the program ends. It keeps its
-/// programs: compiling them is most of what small pictures cost, and tests that draw with a renderer of their own share
-/// them.
+/// The only context of a test program, created at its first use and destroyed before the program ends. It keeps its
+/// programs: compiling them is most of the cost of small images, and tests with separate renderers share them.
 class GlEnvironment final : public testing::Environment {
 public:
     static gpu::Context& context() {
@@ -36,8 +35,8 @@ private:
 };
 inline testing::Environment* const kGlEnvironment = testing::AddGlobalTestEnvironment(new GlEnvironment);
 
-/// A test with a current context. It fails when it leaves an unreported driver message of high or medium severity
-/// behind; a GPU's advice on performance is none.
+/// A test with a current context. Fails if it leaves an unreported driver message of high or medium severity; a GPU's
+/// performance advice does not count.
 class GlTest : public testing::Test {
 protected:
     void TearDown() override {
@@ -49,7 +48,8 @@ protected:
     gpu::Context& context() { return *context_; }
 
 private:
-    gpu::Context* context_ = &GlEnvironment::context(); ///< before the members of test classes, which may need it
+    gpu::Context* context_ =
+        &GlEnvironment::context(); ///< initialised before members of test classes, which may need it
 };
 
 } // namespace tessera::test

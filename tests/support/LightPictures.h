@@ -5,7 +5,7 @@
 
 namespace tessera::test {
 
-/// A picture of a light, `factor` of each column and row, from the top left.
+/// A light texture with the value `factor(x, y)` per texel, from the top left.
 template <typename Factor>
 scenes::LightTexture lightTexture(int width, int height, Factor factor) {
     scenes::LightPicture picture;

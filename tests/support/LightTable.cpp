@@ -12,7 +12,7 @@ namespace {
 using culling::Method;
 using engine::Technique;
 
-/// The deferred technique that takes a method.
+/// The deferred technique that supports a method.
 Technique deferredTechnique(Method method) {
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
         const bool takes = std::ranges::find(technique.methods, method) != technique.methods.end();

@@ -7,20 +7,20 @@
 
 namespace tessera::validation {
 
-/// A method of light culling at one tile side, judged by the oracle.
+/// The oracle's results for a method of light culling at one tile side.
 struct LightTableRow {
     culling::Method method = culling::Method::None;
     int tilePixels = 0; ///< 0: the method has no tiles
     LightOracleFigures figures;
 };
 
-/// Judges every method at every tile side, and first `none`, all with deferred techniques. Of `settings`, only those of
-/// culling are not used. Throws what drawing throws.
+/// Judges `none`, then every method at every tile side, all with deferred techniques. Of `settings.culling` only
+/// `normals` is used. Throws what drawing throws.
 std::vector<LightTableRow> judgeCulling(engine::Renderer& renderer, const frame::FrameSettings& settings,
                                         std::span<const int> tileSides = culling::kTileSides);
 
-/// The rows as a table of ASCII characters under a line on the lights that the frame needs, each line ending in a
-/// newline. Visited lights, mean, p99 and max, include those that reach everywhere; the ratios leave them out.
+/// The rows as an ASCII table, below a line about the lights that the frame needs; each line ends in a newline. Mean,
+/// p99 and max of visited lights include lights of unlimited range; the ratios exclude them.
 std::string lightTable(std::span<const LightTableRow> rows);
 
 } // namespace tessera::validation

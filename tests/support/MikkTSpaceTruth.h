@@ -11,16 +11,16 @@
 
 namespace tessera::test {
 
-/// A mesh without tangents, and those that MikkTSpace gives its corners, one an index.
+/// A mesh without tangents, and MikkTSpace's tangents of its corners, one per index.
 struct MikkTSpaceTruth {
     std::string name;
     scenes::Mesh mesh;
     std::vector<glm::vec4> tangentsOS;
 };
 
-/// The meshes of mikktspace.json as Blender 3.4.1 has them: smooth and mirrored, sheared, flat, and with two triangles
-/// whose texture is a point, which have -1 as their sign. Vertices that differ in nothing but their tangents are one;
-/// or every corner has a vertex of its own.
+/// The meshes of mikktspace.json, from Blender 3.4.1: smooth and mirrored, sheared, flat, and with two triangles of
+/// constant texture coordinates, whose tangent sign is -1. Vertices that differ only in their tangents are merged if
+/// `isIndexed`; else every corner has a separate vertex.
 inline std::vector<MikkTSpaceTruth> mikkTSpaceTruth(bool isIndexed) {
     std::ifstream file(TESSERA_SOURCE_DIR "/tests/support/mikktspace.json");
     const nlohmann::json meshes = nlohmann::json::parse(file).at("meshes");

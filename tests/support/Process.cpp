@@ -16,7 +16,7 @@
 namespace tessera::test {
 namespace {
 
-constexpr int kCannotStart = 127; // the exit code of shells then
+constexpr int kCannotStart = 127; // as in shells
 
 [[noreturn]] void fail(const std::string& call) {
     throw std::runtime_error(call + " failed: " + std::strerror(errno));

@@ -10,8 +10,8 @@
 namespace tessera::test {
 
 struct ProcessOptions {
-    std::filesystem::path folder;                   ///< working directory; empty: this process's own
-    std::map<std::string, std::string> environment; ///< set on top of this process's own
+    std::filesystem::path folder;                   ///< working directory; empty: that of this process
+    std::map<std::string, std::string> environment; ///< replaces or adds to this process's variables
     double timeoutSeconds = 180.0;                  ///< beyond it the program is killed and std::runtime_error thrown
 };
 
@@ -22,7 +22,7 @@ struct ProcessResult {
 };
 
 /// A running program with an empty stdin, its stdout and stderr captured. The first word of the command is looked up in
-/// PATH. Everything throws std::runtime_error, also when the program cannot be started.
+/// PATH. Throws std::runtime_error if a system call fails; a program that cannot be started exits with code 127.
 class Process {
 public:
     explicit Process(const std::vector<std::string>& command, ProcessOptions options = {});

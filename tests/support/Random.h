@@ -23,7 +23,7 @@ public:
         const double z = between(-1.0, 1.0), phi = between(0.0, 2.0 * pi), r = std::sqrt(std::max(0.0, 1.0 - z * z));
         return {r * std::cos(phi), r * std::sin(phi), z};
     }
-    /// About n, with n.w between the two cosines.
+    /// A random direction around n, with n.w between the two cosines.
     glm::dvec3 around(const glm::dvec3& n, double minCosine, double maxCosine) {
         const glm::dvec3 other = std::abs(n.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
         const glm::dvec3 t = glm::normalize(glm::cross(n, other)), b = glm::cross(n, t);

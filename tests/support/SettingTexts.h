@@ -9,8 +9,8 @@
 
 namespace tessera::test {
 
-/// Values that a setting takes, as texts, its default and the open one among them; all names of a choice. Those of the
-/// scene are of one with two cameras and a light.
+/// Valid values of a setting as text, including its default and its unset value; all names of a choice. Values that
+/// depend on a scene are valid for one with two cameras and a light.
 inline std::vector<std::string> textsOf(const engine::Setting& setting) {
     std::vector<std::string> texts{setting.text(engine::ViewRequest())};
     if (!setting.value.open.empty()) texts.emplace_back(setting.value.open);
@@ -43,7 +43,7 @@ inline engine::ViewRequest changedIn(const engine::Setting& setting, const scene
     throw std::logic_error(fmt::format("{} has one value only", setting.name));
 }
 
-/// A scene of two cameras and a light, for settings that name such things.
+/// A scene of two cameras and a light, for settings that name a camera or a light.
 inline scenes::Scene sceneOfTwoCameras() {
     scenes::Scene scene;
     scene.name = "two";

@@ -4,8 +4,8 @@
 
 namespace tessera::test {
 
-/// Where the product's shaders lie: the folder that TESSERA_SHADERS names, as for the program (`./test --mutants` puts
-/// faults there), else the source folder's.
+/// The product's shader folder: the one that TESSERA_SHADERS names, as for the program (`./test --mutants` puts faults
+/// there), else that of the sources.
 inline std::filesystem::path shaderFolder() {
     const char* named = std::getenv("TESSERA_SHADERS");
     return named ? std::filesystem::path(named) : std::filesystem::path(TESSERA_SOURCE_DIR) / "shaders";

@@ -18,8 +18,8 @@ public:
     }
     ShaderMutant() { std::filesystem::copy(shaderFolder(), folder_.path(), std::filesystem::copy_options::recursive); }
 
-    /// Replaces every `from` in a file below shaders/. Throws when there is none, so that no mutant is ever the
-    /// original.
+    /// Replaces every `from` in a file below shaders/. Throws if there is none, so that a mutant always differs from
+    /// the original.
     void replace(const std::string& file, const std::string& from, const std::string& to) const {
         std::ifstream stream(folder_.path() / file, std::ios::binary);
         std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};

@@ -14,23 +14,23 @@
 
 namespace tessera::test {
 
-/// Whether the running test goes through every case of its sweep: in suites whose names end in Slow, which only
-/// ./test --all runs. Elsewhere a part that holds every value of every axis is enough.
+/// Whether the running test covers its whole sweep: in suites whose names end in Slow, which only ./test --all runs.
+/// Other suites cover a part that contains every value of every axis.
 inline bool isWholeSweep() {
     return std::string_view(testing::UnitTest::GetInstance()->current_test_info()->test_suite_name()).ends_with("Slow");
 }
 
-/// The one element of `all` whose turn it is, by turns from 0. All in a whole sweep.
+/// The element of `all` that `turn`, counted from 0, selects. All elements in a whole sweep.
 template <std::ranges::borrowed_range Range>
 auto inTurn(Range&& all, std::size_t turn) {
     const std::span elements(all);
     return isWholeSweep() ? elements.subspan(0) : elements.subspan(turn % elements.size(), 1);
 }
 
-/// The technique whose turn it is, of those that take so many samples a pixel, but forward, with which the tests
-/// compare them. All in a whole sweep. Techniques differ in how they store surfaces, in their light lists and in the
-/// pass that lights, and share what they light with. So the first turns have one that differs from forward in each of
-/// these; the others follow in the order of their table.
+/// The technique that `turn` selects of those that support this number of samples per pixel, except forward, with which
+/// the tests compare them. All in a whole sweep. Techniques differ in how they store surfaces, in their light lists and
+/// in their lighting pass, and share the lighting code. So the first turns select one that differs from forward in each
+/// of these; the others follow in table order.
 inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int samples = 1) {
     using engine::Technique;
     std::vector<Technique> techniques{Technique::ClusteredDeferred, Technique::ForwardPlus, Technique::DeferredVolumes,
@@ -64,9 +64,9 @@ bool registerSweep(std::initializer_list<SweepName> names, const char* file, int
     return true;
 }
 
-/// A test of two suites: a part of its sweep in the fixture's own, all of it in the one whose name ends in Slow.
+/// Defines a test in two suites: part of its sweep in the fixture's, all of it in the one whose name ends in Slow.
 #define TEST_SWEEP(fixture, name) TEST_SWEEP_AS(fixture, name, fixture##Slow, name)
-/// The same where the whole sweep has another suite or name.
+/// The same with another suite or name for the whole sweep.
 #define TEST_SWEEP_AS(fixture, name, slowSuite, slowName)                                                              \
     class fixture##_##name##_Sweep : public fixture {                                                                  \
         void TestBody() override;                                                                                      \

@@ -9,7 +9,7 @@
 
 namespace tessera::test {
 
-/// A new, empty folder that vanishes with its contents at the end of the test.
+/// A new, empty folder, removed with its contents at the end of the test.
 class TempFolder {
 public:
     TempFolder() {
@@ -25,7 +25,7 @@ public:
     TempFolder& operator=(TempFolder&&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    /// Writes a file, with the folders it needs; replaces one that is there. Returns its path.
+    /// Writes a file and creates its folders; replaces an existing file. Returns its path.
     std::filesystem::path write(const std::string& name, std::string_view text) const {
         const std::filesystem::path file = path_ / name;
         std::filesystem::create_directories(file.parent_path());

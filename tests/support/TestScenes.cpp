@@ -17,7 +17,7 @@ using namespace scenes;
 
 namespace {
 
-/// A picture of smooth, different values in every channel.
+/// An image of smooth, different values in every channel.
 Image pattern(const std::string& name, int size, bool normalMap) {
     Image image;
     image.name = name;
@@ -66,9 +66,9 @@ TextureUse textured(int image) {
     return use;
 }
 
-constexpr int kColors = 0, kNormals = 1; ///< images
+constexpr int kColors = 0, kNormals = 1; ///< indices of images
 
-/// The models and layers whose lobes have a direction, an exponent or a normal of their own.
+/// Adds the models and layers whose lobes have a separate direction, exponent or normal.
 void addLobes(std::vector<Material>& materials) {
     const auto add = [&](MaterialModel model, const char* name, const glm::vec3& color) -> Material& {
         Material material;
@@ -127,7 +127,7 @@ void addLobes(std::vector<Material>& materials) {
 }
 
 constexpr int kMetalMaterial = 3, kMaskedMaterial = 5,
-              kPaneMaterial = 6; ///< materials of everyMaterial(), all metallic-roughness
+              kPaneMaterial = 6; ///< indices in everyMaterial(), all metallic-roughness
 
 std::vector<Material> everyMaterial() {
     std::vector<Material> materials;
@@ -216,8 +216,8 @@ frame::DiffusionSettings coarseDiffusion() {
 }
 
 Scene builtinForSweep(const BuiltinScene& builtin, LoadOptions options) {
-    constexpr std::string_view kOfManyLights[] = {"hall", "lattice", "lamps"}; // 256 and more
-    constexpr int kFewerLights = 100; // as bright as with all (scenes/builtin/Places.h)
+    constexpr std::string_view kOfManyLights[] = {"hall", "lattice", "lamps"}; // scenes of 256 lights and more
+    constexpr int kFewerLights = 100; // as bright as with all lights (scenes/builtin/Places.h)
     if (!isWholeSweep() && std::ranges::find(kOfManyLights, builtin.name) != std::end(kOfManyLights))
         options.lights = kFewerLights;
     return loadScene(std::string(builtin.name), options);

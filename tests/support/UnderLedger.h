@@ -5,7 +5,7 @@
 
 #include "scenes/LoadLedger.h"
 
-// Beside LoadLedger, so that calls find it.
+// In the namespace of LoadLedger, so that calls find it.
 namespace tessera::scenes {
 
 inline constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
@@ -16,7 +16,7 @@ inline ImportWishes strictly() {
     return wishes;
 }
 
-/// What `read` makes of `input` under a ledger of its own: for tests that look at one file.
+/// Calls `read` on `input` with a separate ledger, for tests that read one file.
 template <typename Read, typename Input>
 auto underLedger(const Read& read, const Input& input, std::optional<std::uint64_t> limitBytes = {},
                  ImportWishes wishes = {}) {

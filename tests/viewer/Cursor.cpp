@@ -24,7 +24,7 @@ glm::ivec2 Cursor::extentPixels() const {
 Cursor cursorOf(const std::string& display) {
     const XConnection connection = connectTo(display);
     xcb_connection_t* const x = connection.get();
-    // The server tells nothing before it knows which version is spoken.
+    // The server answers no request before the version is negotiated.
     const OwnedReply<xcb_xfixes_query_version_reply_t> version(
         xcb_xfixes_query_version_reply(x, xcb_xfixes_query_version(x, 1, 0), nullptr));
     if (!version) throw std::runtime_error("the display " + display + " has no extension XFIXES");

@@ -7,17 +7,17 @@
 
 namespace tessera::test {
 
-/// The pointer as a screen shows it, which pictures of the screen leave out.
+/// The pointer's image on a screen, which screen captures omit.
 struct Cursor {
     glm::ivec2 sizePixels{0};
-    std::vector<std::uint32_t> argb; ///< 8 bits per channel, multiplied by alpha; rows from the top
+    std::vector<std::uint32_t> argb; ///< 8 bits per channel, premultiplied by alpha; rows from the top
 
-    /// Width and height of the part that is seen, in pixels; 0 where nothing is.
+    /// Width and height of the visible part in pixels; 0 if nothing is visible.
     glm::ivec2 extentPixels() const;
     bool operator==(const Cursor&) const = default;
 };
 
-/// The pointer of a display, as in DISPLAY, as it is now. Throws std::runtime_error where the X server does not tell.
+/// The current pointer of a display, named as in DISPLAY. Throws std::runtime_error if the X server does not return it.
 /// Source: "The X Fixes Extension", version 1, GetCursorImage.
 Cursor cursorOf(const std::string& display);
 

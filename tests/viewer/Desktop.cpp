@@ -10,7 +10,7 @@
 namespace tessera::test {
 namespace {
 
-constexpr double kLongSeconds = 3600.0; ///< of programs that end with the test
+constexpr double kLongSeconds = 3600.0; ///< timeout of programs that end with the test
 constexpr const char* kManagerSettings = R"(<?xml version="1.0"?>
 <openbox_config xmlns="http://openbox.org/3.4/rc">
   <theme><keepBorder>no</keepBorder></theme>
@@ -22,7 +22,7 @@ constexpr const char* kManagerSettings = R"(<?xml version="1.0"?>
 </openbox_config>
 )";
 
-/// The server writes the number of the display that it found free, once it takes connections.
+/// Waits until the server accepts connections and has written the number of its display.
 std::string readDisplay(const std::filesystem::path& file) {
     for (int i = 0; i < 600; ++i) {
         std::ifstream stream(file);
@@ -49,8 +49,8 @@ Desktop::Desktop(glm::ivec2 sizePixels) : sizePixels_(sizePixels) {
                                         ProcessOptions{folder_.path(), {}, kLongSeconds});
     display_ = readDisplay(folder_.path() / "display");
     const std::string settings = folder_.write("openbox.xml", kManagerSettings).string();
-    // The manager names itself to the screen's root window when it is ready. One that misses its start, which happens
-    // once in hundreds, is started again.
+    // The manager registers with the screen's root window when it is ready. If it misses its start, which happens once
+    // in hundreds, it is started again.
     for (int start = 0; start < 4; ++start) {
         manager_ = std::make_unique<Process>(std::vector<std::string>{"openbox", "--config-file", settings},
                                              ProcessOptions{folder_.path(), {{"DISPLAY", display_}}, kLongSeconds});
@@ -70,7 +70,7 @@ std::string Desktop::xdotool(const std::vector<std::string>& words) const {
 }
 
 void Desktop::capture(const std::filesystem::path& file) const {
-    // Hardly compressed, which takes a fifth of the time.
+    // Little compression takes a fifth of the time.
     checked({"import", "-silent", "-window", "root", "-quality", "1", "png:" + file.string()}, display_);
 }
 

@@ -10,8 +10,8 @@
 
 namespace tessera::test {
 
-/// A screen of its own that no monitor shows (Xvfb), with a window manager (Openbox) that binds no key but Alt+F4,
-/// no button, and draws no frames: the one window is at the upper left.
+/// A virtual screen (Xvfb) with a window manager (Openbox) that binds no key but Alt+F4 and no button, and draws no
+/// frames: the only window is at the upper left.
 class Desktop {
 public:
     explicit Desktop(glm::ivec2 sizePixels);
@@ -19,10 +19,10 @@ public:
     const std::string& display() const { return display_; } ///< as in DISPLAY
     glm::ivec2 sizePixels() const { return sizePixels_; }
 
-    /// Runs xdotool, whose events come from the X server as a user's do, and returns what it printed. Throws
-    /// std::runtime_error when it fails.
+    /// Runs xdotool, whose events come from the X server like a user's, and returns its output. Throws
+    /// std::runtime_error if it fails.
     std::string xdotool(const std::vector<std::string>& words) const;
-    /// All that the screen shows, as a PNG file.
+    /// Saves the screen's contents as a PNG file.
     void capture(const std::filesystem::path& file) const;
 
 private:

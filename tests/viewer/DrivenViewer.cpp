@@ -16,7 +16,7 @@ namespace tessera::test {
 namespace {
 
 constexpr const char* kLog = "viewer.log";
-constexpr double kEndSeconds = 600.0; ///< a viewer that still runs then hangs
+constexpr double kEndSeconds = 600.0; ///< timeout: a viewer that still runs hangs
 
 void sleepSeconds(double seconds) {
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
@@ -69,7 +69,7 @@ DrivenViewer::DrivenViewer(const Desktop& desktop, const std::filesystem::path& 
                            const std::map<std::string, std::string>& environment)
     : desktop_(desktop), folder_(folder) {
     std::filesystem::remove(folder_ / kLog);
-    // Pictures are compared with rendered ones, whose edges are not smoothed.
+    // Images are compared with rendered ones, whose edges are not smoothed.
     const std::filesystem::path settings = folder_ / "config" / "tessera" / "viewer.json";
     if (!std::filesystem::exists(settings)) {
         std::filesystem::create_directories(settings.parent_path());
@@ -92,7 +92,7 @@ std::vector<std::string> DrivenViewer::lines() const {
     std::ifstream stream(folder_ / kLog);
     std::vector<std::string> all;
     std::string line;
-    while (std::getline(stream, line) && !stream.eof()) all.push_back(line); // the last may be half written
+    while (std::getline(stream, line) && !stream.eof()) all.push_back(line); // the last line may be incomplete
     return all;
 }
 
@@ -109,7 +109,7 @@ std::string DrivenViewer::waitFor(const std::string& begin, std::size_t from, do
 }
 
 glm::ivec2 DrivenViewer::waitForWhole(std::size_t from) const {
-    // After the latest input nothing is drawn any more but the whole picture: that line stays the last of its kind.
+    // After the latest input, only the whole image is drawn: its line stays the last of its kind.
     constexpr double kStillSeconds = 0.35;
     double still = 0.0;
     std::string latest;
@@ -206,7 +206,7 @@ Shot DrivenViewer::capture() const {
     const std::filesystem::path file = folder_ / "capture.png";
     desktop_.capture(file);
     Shot shot = readShot(file);
-    // Kept for people to look at where asked for.
+    // Kept for inspection if TESSERA_GALLERY names a folder.
     if (const char* gallery = std::getenv("TESSERA_GALLERY")) {
         static int count = 0;
         std::filesystem::copy_file(file, std::filesystem::path(gallery) / fmt::format("viewer-{:02}.png", ++count),

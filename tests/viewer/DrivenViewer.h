@@ -14,59 +14,59 @@
 
 namespace tessera::test {
 
-/// What a screen shows: 8 bits per channel, rows from the top.
+/// A screen image: 8 bits per channel, rows from the top.
 struct Shot {
     glm::ivec2 sizePixels{0};
     std::vector<std::uint8_t> rgb;
 
     glm::ivec3 at(glm::ivec2 pixel) const;
-    /// A rectangle of it.
+    /// A rectangle of the image.
     Shot part(glm::ivec2 corner, glm::ivec2 size) const;
     bool operator==(const Shot&) const = default;
 };
-/// An 8-bit picture file.
+/// Reads an 8-bit image file.
 Shot readShot(const std::filesystem::path& file);
-/// Share of the pixels that differ in any channel by more than `steps`. Of one size.
+/// Fraction of the pixels that differ in any channel by more than `steps`; 1 for images of different sizes.
 double differingShare(const Shot& a, const Shot& b, int steps = 0);
 
-/// `tessera view --log` on a desktop, used as a person uses it: by keys, mouse and window manager.
+/// `tessera view --log` on a desktop, operated like a person would: by keys, mouse and window manager.
 class DrivenViewer {
 public:
-    /// Waits until the window is there. The working folder is where files are saved; settings are kept in its folder
-    /// "config". Where it has none, edges are not smoothed at rest.
+    /// Waits until the window exists. Files are saved in `folder`, settings in its subfolder "config". If there are no
+    /// settings, edges are not smoothed.
     DrivenViewer(const Desktop& desktop, const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                  const std::map<std::string, std::string>& environment = {});
 
-    // ---- What the viewer said it did ----
+    // ---- Event log ----
     std::vector<std::string> lines() const;
-    std::size_t mark() const { return lines().size(); } ///< a place in the log: now
-    /// The first line from a place on that begins with `begin`; throws std::runtime_error after `seconds`.
+    std::size_t mark() const { return lines().size(); } ///< the current end of the log
+    /// The first line after a mark that begins with `begin`; throws std::runtime_error after `seconds`.
     std::string waitFor(const std::string& begin, std::size_t from, double seconds = 60.0) const;
-    /// Waits for a picture drawn whole from a place on, after which nothing moves; returns its size in pixels.
+    /// Waits for a whole image drawn after a mark, and until nothing more is drawn; returns its size in pixels.
     glm::ivec2 waitForWhole(std::size_t from) const;
 
-    // ---- What a user does ----
+    // ---- User input ----
     void key(const std::string& chord) const; ///< xdotool's names: "F12", "ctrl+s"
     void type(const std::string& text) const; ///< letter by letter
     void hold(const std::string& key, double seconds) const;
     void moveTo(glm::ivec2 pixel) const;
     void click(glm::ivec2 pixel, const std::string& held = "") const;
     void doubleClick(glm::ivec2 pixel) const;
-    /// By way of ten points, with keys held; X11's button 1 is the left one, 3 the right one.
+    /// Drags via ten points, with keys held. X11's button 1 is the left one, 3 the right one.
     void drag(glm::ivec2 from, glm::ivec2 to, const std::string& held = "", int button = 1) const;
     void wheel(int clicks, const std::string& held = "") const; ///< positive: away from the user
-    /// As dropFiles() does.
+    /// See dropFiles().
     void drop(glm::ivec2 pixel, const std::vector<std::filesystem::path>& files) const;
     void resize(glm::ivec2 sizePixels) const;
     void minimise() const;
-    void pause(double seconds) const; ///< waits
+    void pause(double seconds) const;
     void restore() const;
 
     Shot capture() const;
-    /// Waits for the end; the exit code, or none when a signal ended it.
+    /// Waits for the end; returns the exit code, or none if a signal ended it.
     std::optional<int> wait();
     void send(int signal) const;
-    /// As a window manager asks a window to close.
+    /// Closes the window through the window manager.
     void close() const;
     const std::string& errors() const { return errors_; } ///< stderr, after wait()
 

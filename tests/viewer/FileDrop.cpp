@@ -14,7 +14,7 @@
 namespace tessera::test {
 namespace {
 
-/// A program from which something is dragged: it never shows the window that X11's messages go to.
+/// The source program of a drag. The window that receives X11's messages is never shown.
 class DragSource {
 public:
     DragSource(const std::string& display, xcb_window_t target) : connection_(connectTo(display)), target_(target) {
@@ -45,7 +45,7 @@ private:
 
     template <class Event>
     void send(xcb_window_t to, const Event& event) {
-        std::array<char, 32> bytes{}; // of any event
+        std::array<char, 32> bytes{}; // size of any event
         static_assert(sizeof(Event) <= sizeof bytes);
         std::memcpy(bytes.data(), &event, sizeof event);
         xcb_send_event(connection_.get(), 0, to, XCB_EVENT_MASK_NO_EVENT, bytes.data());
@@ -62,7 +62,7 @@ private:
         send(target_, event);
     }
 
-    /// Hands over what is dragged until the window answers by a message, which has to say yes.
+    /// Supplies the dragged data until the window answers with `message`, which must accept the drop.
     void awaitYes(const std::string& message, const std::string& uris) {
         const xcb_atom_t awaited = atom(message);
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -72,13 +72,13 @@ private:
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));
                 continue;
             }
-            const int kind = event->response_type & 0x7f; // without the mark of an event that a program sent
+            const int kind = event->response_type & 0x7f; // without the flag of events sent by programs
             if (kind == XCB_SELECTION_REQUEST)
                 handOver(reinterpret_cast<const xcb_selection_request_event_t&>(*event), uris);
             if (kind != XCB_CLIENT_MESSAGE) continue;
             const auto& told = reinterpret_cast<const xcb_client_message_event_t&>(*event);
             if (told.type != awaited) continue;
-            if (told.data.data32[1] != 0) return; // GLFW finishes with how many bytes it took instead of 1
+            if (told.data.data32[1] != 0) return; // GLFW finishes with the number of bytes it accepted instead of 1
             throw std::runtime_error("the window does not take what is dropped: " + message);
         }
         throw std::runtime_error("the window did not answer what is dropped within 30 s: no " + message);

@@ -17,7 +17,7 @@
 namespace tessera::test {
 namespace {
 
-// The list of scenes under its box: the built-in ones, a line, the recent files.
+// The list of scenes below its box: the built-in ones, a line, the recent files.
 constexpr int kEntryPixels = 18;
 constexpr int kFirstEntryPixels = 24;
 constexpr int kLinePixels = 6;
@@ -25,7 +25,7 @@ constexpr std::string_view kBuiltin[] = {"hall",         "spheres", "models",   
                                          "shadow_truth", "head",    "head_skin", "head_marble", "diffusion_truth",
                                          "lamps",        "studio",  "glass"};
 
-/// Clicks what lies so far under the box of the list.
+/// Clicks the entry this far below the list's box.
 void chooseEntry(const DrivenViewer& viewer, glm::ivec2 box, int pixels) {
     viewer.click(box);
     viewer.click(box + glm::ivec2(0, pixels));
@@ -42,7 +42,7 @@ glm::ivec2 ViewerTest::screenPixels() {
 }
 
 int ViewerTest::barOf(const DrivenViewer& viewer, Section section) {
-    // Bars reach further to the left than anything else in the panels.
+    // Bars extend further to the left than anything else in the panels.
     constexpr int kColumn = 6, kLeastHeight = 12;
     const auto barsInView = [&] {
         const Shot shot = viewer.capture();
@@ -59,7 +59,7 @@ int ViewerTest::barOf(const DrivenViewer& viewer, Section section) {
         return bars;
     };
     std::vector<int> bars = barsInView();
-    if (bars.size() <= std::size_t(section)) { // a small screen's panels show what was selected
+    if (bars.size() <= std::size_t(section)) { // on a small screen the panels scroll to the selected item
         scrollToTop(viewer);
         bars = barsInView();
     }
@@ -68,8 +68,8 @@ int ViewerTest::barOf(const DrivenViewer& viewer, Section section) {
 }
 
 std::vector<int> ViewerTest::linesOf(const DrivenViewer& viewer, Section section) {
-    // Bars alone reach to the first column; the widgets beside labels begin behind the others. Lines and frames are
-    // less bright against the panels than any letter, and letters that are greyed less than half as bright as others.
+    // Only bars extend to the bar column, and widgets beside labels begin to the right of the end column. Lines and
+    // frames contrast less with the panels than any letter, and greyed letters less than half as much as others.
     constexpr int kBarColumn = 6, kFirstColumn = 10, kEndColumn = 105, kLetterSteps = 85, kBrightSteps = 110;
     const int bar = barOf(viewer, section);
     const Shot shot = viewer.capture();
@@ -84,7 +84,7 @@ std::vector<int> ViewerTest::linesOf(const DrivenViewer& viewer, Section section
     while (y < shot.sizePixels.y && isBar(y)) ++y;
     std::vector<int> lines;
     int begin = -1, brightest = 0;
-    constexpr int kRulePixels = 3; // as thick as lines between rows at most
+    constexpr int kRulePixels = 3; // largest thickness of lines between rows
     for (; y < shot.sizePixels.y - kRulePixels && !(isBar(y) && isBar(y + kRulePixels)); ++y) {
         const int bright = brightness(y);
         if (bright > kLetterSteps) {
@@ -123,10 +123,10 @@ void ViewerTest::toggle(const DrivenViewer& viewer, Section section) {
     const auto above = [&] { return viewer.capture().part({0, 0}, {kPanelPixels, bar - 12}); };
     const Shot before = above();
     viewer.click({200, bar});
-    viewer.moveTo(middlePixel()); // where nothing lights up
+    viewer.moveTo(middlePixel()); // nothing is highlighted there
     viewer.pause(0.5);
     if (above() == before) return;
-    scrollToTop(viewer); // what opens low comes into view
+    scrollToTop(viewer); // scrolls a section that opens low into view
     viewer.moveTo(middlePixel());
     viewer.pause(0.3);
 }
@@ -139,7 +139,7 @@ void ViewerTest::addLight(const DrivenViewer& viewer) {
 void ViewerTest::chooseScene(const DrivenViewer& viewer, std::string_view builtin) {
     const auto index = std::find(std::begin(kBuiltin), std::end(kBuiltin), builtin) - std::begin(kBuiltin);
     chooseEntry(viewer, inRow(viewer, Section::Scene, 1, 200), kFirstEntryPixels + int(index) * kEntryPixels);
-    viewer.moveTo(middlePixel()); // where no box explains what it points at
+    viewer.moveTo(middlePixel()); // no tooltip appears there
 }
 
 void ViewerTest::chooseRecentScene(const DrivenViewer& viewer, int index) {

@@ -8,7 +8,7 @@
 
 namespace tessera::test {
 
-/// What the X server answers is the caller's to free.
+/// Frees replies of the X server, which the caller owns.
 struct FreedByC {
     void operator()(void* memory) const { std::free(memory); }
 };
@@ -17,7 +17,7 @@ using OwnedReply = std::unique_ptr<Reply, FreedByC>;
 
 using XConnection = std::unique_ptr<xcb_connection_t, decltype(&xcb_disconnect)>;
 
-/// Throws std::runtime_error where a display, as in DISPLAY, takes no connection.
+/// Connects to a display, named as in DISPLAY. Throws std::runtime_error if it accepts no connection.
 inline XConnection connectTo(const std::string& display) {
     XConnection connection(xcb_connect(display.c_str(), nullptr), &xcb_disconnect);
     if (xcb_connection_has_error(connection.get()) != 0)

@@ -27,14 +27,14 @@ TEST_F(ViewerCameras, everyGestureMovesThePictureAndHomeBringsItBackExactly) {
     };
     const Shot panned = pan("alt", 1);
     expectMoved("pan", panned);
-    for (const int button : {2, 3}) { // the middle and the right one
+    for (const int button : {2, 3}) { // the middle and the right button
         const Shot shot = pan("", button);
         EXPECT_LT(differingShare(shot, panned, 4), 0.001) << "not but for the rounding of the steps' sum";
         expectMoved("pan by a button", shot);
         pan("", button);
         const Shot back = after(viewer, [&] { viewer.drag(there, middlePixel(), "", button); });
         EXPECT_LT(differingShare(back, home, 4), 0.001) << "the same way back";
-        viewer.key("Home"); // draws nothing where the steps' sum is exactly 0
+        viewer.key("Home"); // draws nothing if the sum of the steps is exactly 0
     }
     expectMoved("zoom", after(viewer, [&] { viewer.drag(middlePixel(), there, "ctrl"); }));
     expectMoved("wheel", after(viewer, [&] {
@@ -90,13 +90,13 @@ TEST_F(ViewerCameras, theWheelGoesNearerToWhatIsUnderThePointerWhichStaysThere) 
     };
     const Seen before = seen();
     EXPECT_EQ(before.material, "; material metalness 0/4, roughness 4/10");
-    // Eight steps make it almost three times as large: were it the picture's middle that stays, another surface would
-    // be here, what was 64 pixels beside the middle of the sphere of 45 (at 1280 x 800).
+    // Eight steps magnify almost three times. If the image's centre stayed fixed instead, the pointer would be over a
+    // surface that was 64 pixels away, outside the sphere of radius 45 (at 1280 x 800).
     after(viewer, [&] { viewer.wheel(8); });
     const Seen near = seen();
     EXPECT_EQ(near.material, before.material);
     EXPECT_LT(near.depthMetres, 0.6 * before.depthMetres);
-    // Half a pixel to the side is at most the next triangle of the sphere, whose steps are 5.6 degrees.
+    // Half a pixel off is at most the next triangle of the sphere, which is tessellated in steps of 5.6 degrees.
     EXPECT_LT(glm::distance(near.faceNormalWS, before.faceNormalWS), 0.2);
     EXPECT_TRUE(after(viewer, [&] { viewer.key("Home"); }) == home);
 }
@@ -104,7 +104,7 @@ TEST_F(ViewerCameras, theWheelGoesNearerToWhatIsUnderThePointerWhichStaysThere) 
 TEST_F(ViewerCameras, aDoubleClickTurnsAboutTheSurfaceAndFBringsWhatIsSelectedIntoView) {
     DrivenViewer viewer = open(kSpheres);
     const Shot home = pictureIn(viewer, viewer.waitForWhole(0));
-    makeRoom(viewer); // the material's panel stays in view
+    makeRoom(viewer); // keeps the material's section in view
     const glm::ivec2 sphere = sphereIn(home.sizePixels);
     std::size_t mark = viewer.mark();
     const Shot turned = after(viewer, [&] { viewer.doubleClick(sphere); });
@@ -115,15 +115,15 @@ TEST_F(ViewerCameras, aDoubleClickTurnsAboutTheSurfaceAndFBringsWhatIsSelectedIn
     EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10") << "it is not in the middle";
     const Shot near = after(viewer, [&] { viewer.key("f"); });
     EXPECT_GT(differingShare(near, turned, 4), 0.2);
-    // The sphere is as large as that now.
+    // The sphere is now large enough to cover these points.
     for (const int y : {home.sizePixels.y * 3 / 10, home.sizePixels.y * 7 / 10}) {
         mark = viewer.mark();
-        viewer.pause(0.5); // no double click
+        viewer.pause(0.5); // not a double click
         viewer.click(kPictureCorner + glm::ivec2(home.sizePixels.x / 2, y));
         EXPECT_EQ(viewer.waitFor("picked ", mark), "picked metalness 0/4, roughness 4/10") << y;
     }
     after(viewer, [&] { viewer.key("Home"); });
-    toggle(viewer, Section::Materials); // takes the outline of the sphere away
+    toggle(viewer, Section::Materials); // removes the sphere's outline
     EXPECT_TRUE(pictureIn(viewer, home.sizePixels) == home);
 }
 

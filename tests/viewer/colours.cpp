@@ -1,4 +1,4 @@
-// One colour in lists, editors, pickers and the picture.
+// A colour is the same in lists, editors, pickers and the image.
 #include <cmath>
 #include <stdexcept>
 
@@ -9,9 +9,9 @@ namespace {
 
 class ViewerColours : public ViewerTest {
 protected:
-    static constexpr int kSwatchX = 276; // with a scroll bar beside it too
+    static constexpr int kSwatchX = 276; // beside a scroll bar too
 
-    /// A card that fills the picture, of paint that no light changes, and a lamp before its middle.
+    /// Opens a scene of a card that fills the image, with unlit paint, and a lamp in front of its centre.
     DrivenViewer openCard() {
         folder_.write("card.obj", "o card\nv -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
         folder_.write("card.json", R"({"tessera": 1, "include": [{"file": "card.obj"}],
@@ -21,10 +21,10 @@ protected:
             "cameras": [{"name": "front", "position": [0, 0, 2], "target": [0, 0, 0], "fovYDegrees": 30}]})");
         return open({"card.json"});
     }
-    /// A place of the card beside the lamp that neither a picker nor an outline covers.
+    /// A position on the card beside the lamp that neither a picker nor an outline covers.
     static glm::ivec2 cardPixel() { return screenPixels() - glm::ivec2(60, screenPixels().y / 2); }
 
-    /// A click on the card opens the panel of materials; where the swatch of its colour is.
+    /// Clicks the card, which opens the section of materials; returns the position of its colour swatch.
     static glm::ivec2 pickPaint(const DrivenViewer& viewer) {
         makeRoom(viewer);
         const std::size_t mark = viewer.mark();
@@ -37,7 +37,7 @@ protected:
 
     /// The field of hexadecimal digits in the picker that a click on a swatch has opened: the lowest of its fields.
     static glm::ivec2 digitsOf(const DrivenViewer& viewer, glm::ivec2 swatch) {
-        constexpr glm::ivec3 kField(13, 13, 14); // as the theme fills them
+        constexpr glm::ivec3 kField(13, 13, 14); // the theme's fill colour
         constexpr int kBehindDigits = 150, kLeastHeight = 15;
         for (int tried = 0; tried < 50; ++tried) {
             const Shot shot = viewer.capture();
@@ -50,7 +50,7 @@ protected:
         }
         throw std::runtime_error("a click on a swatch opens no picker with digits");
     }
-    /// Types digits into the picker of a swatch, after keys that make room for them, and leaves it.
+    /// Types digits into a swatch's picker, after keys that select or delete the old ones, and closes it.
     static void typeDigits(const DrivenViewer& viewer, glm::ivec2 swatch, const std::vector<std::string>& keys,
                            const std::string& digits) {
         viewer.click(swatch);
@@ -62,7 +62,7 @@ protected:
         viewer.key("Return");
         viewer.waitForWhole(mark);
         viewer.key("Escape");
-        viewer.moveTo(cardPixel()); // where nothing lights up or is explained
+        viewer.moveTo(cardPixel()); // nothing is highlighted and no tooltip appears there
         viewer.pause(0.5);
     }
 
@@ -70,7 +70,7 @@ protected:
         typeDigits(viewer, swatch, {"ctrl+a"}, "c85a1e");
     }
 
-    /// Pixels about a place, as far to each side, of exactly this colour.
+    /// Number of pixels of exactly this colour in a square around a position.
     static int countAbout(const Shot& shot, glm::ivec2 place, int reachPixels, const glm::ivec3& colour) {
         int count = 0;
         for (int y = place.y - reachPixels; y <= place.y + reachPixels; ++y)
@@ -78,20 +78,20 @@ protected:
                 count += shot.at({x, y}) == colour ? 1 : 0;
         return count;
     }
-    /// What a saved colour of sRGB code values is. Source: IEC 61966-2-1.
+    /// Expects a saved colour to be the linear value of sRGB codes. Source: IEC 61966-2-1.
     static void expectLinear(const nlohmann::json& saved, const glm::ivec3& code) {
         ASSERT_GE(saved.size(), 3u) << saved;
-        constexpr double kFloat = 1e-6; // what single precision keeps
+        constexpr double kFloat = 1e-6; // precision of a float
         for (int i = 0; i < 3; ++i)
             EXPECT_NEAR(saved.at(std::size_t(i)).get<double>(), std::pow((code[i] / 255.0 + 0.055) / 1.055, 2.4),
                         kFloat)
                 << saved;
     }
 
-    // Swatches of lists are as high as a line of text, 13 pixels, others as a field, 19; a border of one pixel is
-    // around them, and their corners are round.
+    // Swatches in lists are as high as a line of text, 13 pixels, others as a field, 19. They have a border of one
+    // pixel and round corners.
     static constexpr int kListSwatchPixels = 11 * 11 - 20, kSwatchPixelsLeast = 17 * 17 - 30, kSwatchReach = 15;
-    static constexpr glm::ivec3 kTyped{0xc8, 0x5a, 0x1e}; // by typeColour()
+    static constexpr glm::ivec3 kTyped{0xc8, 0x5a, 0x1e}; // typed by typeColour()
 };
 
 TEST_F(ViewerColours, aSwatchShowsTheColourThatThePictureShows) {
@@ -117,7 +117,7 @@ TEST_F(ViewerColours, digitsTypedIntoThePickerOfAMaterialAreWhatThePictureAndThe
 TEST_F(ViewerColours, aDigitTypedIntoThePickerLeavesTheOtherChannelsToTheLastBit) {
     DrivenViewer viewer = openCard();
     viewer.waitForWhole(0);
-    typeDigits(viewer, pickPaint(viewer), {"End", "BackSpace"}, "6"); // the last one of #aa5995
+    typeDigits(viewer, pickPaint(viewer), {"End", "BackSpace"}, "6"); // the last digit of #aa5995
     EXPECT_EQ(viewer.capture().at(cardPixel()), glm::ivec3(170, 89, 150));
     const nlohmann::json color = readJson(saveScene(viewer)).at("materials").at(0).at("color");
     EXPECT_EQ(color.at(0).get<float>(), 0.402f) << color;

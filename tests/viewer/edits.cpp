@@ -1,4 +1,4 @@
-// Lights and materials edited, scenes changed, saved and opened again, by way of the panels.
+// Editing lights and materials, and changing, saving and reopening scenes, through the panels.
 #include <algorithm>
 #include <csignal>
 #include <map>
@@ -16,7 +16,7 @@ namespace {
 
 class ViewerEdits : public ViewerTest {
 protected:
-    /// Opens a built-in scene by the list; its whole picture.
+    /// Opens a built-in scene from the list; returns its whole image.
     static Shot change(const DrivenViewer& viewer, const std::string& builtin) {
         const std::size_t mark = viewer.mark();
         chooseScene(viewer, builtin);
@@ -41,7 +41,7 @@ TEST_F(ViewerEdits, aLightSwitchedOffIsSavedAndOnAgainBringsThePictureBackExactl
         saved = saveScene(viewer);
         EXPECT_TRUE(rendered(saved, dark.sizePixels) == dark) << saved;
         EXPECT_TRUE(after(viewer, [&] { viewer.click(onOff); }) == lit);
-        // Edits are left behind only by an answer, and not by any that one gives twice.
+        // Edits are discarded only by an answer; pressing ctrl+q twice is none.
         const std::size_t mark = viewer.mark();
         for (int i = 0; i < 2; ++i) {
             viewer.key("ctrl+q");
@@ -68,7 +68,7 @@ TEST_F(ViewerEdits, anEditIsUndoneAndRedoneByKeys) {
     const glm::ivec2 onOff = lightSwitch(viewer, 2);
     const Shot dark = after(viewer, [&] { viewer.click(onOff); });
     EXPECT_GT(differingShare(dark, lit, 4), 0.2);
-    // Away from the selected light's handles, which are no part of the picture.
+    // Except for the selected light's handles, which are not part of the image.
     EXPECT_LT(differingShare(after(viewer, [&] { viewer.key("ctrl+z"); }), lit), 0.02);
     EXPECT_LT(differingShare(after(viewer, [&] { viewer.key("ctrl+shift+z"); }), dark), 0.02);
     after(viewer, [&] { viewer.key("ctrl+z"); });
@@ -97,7 +97,7 @@ TEST_F(ViewerEdits, severalLightsAreSelectedInTheListAndDeletedAtOnce) {
     const nlohmann::json lights = readJson(saveScene(viewer)).at("lights");
     ASSERT_EQ(lights.size(), 1u);
     EXPECT_EQ(lights.at(0).at("name"), "c");
-    after(viewer, [&] { viewer.key("ctrl+z"); }); // all in one step
+    after(viewer, [&] { viewer.key("ctrl+z"); }); // undoes all in one step
     EXPECT_EQ(readJson(saveScene(viewer)).at("lights").size(), 4u);
     viewer.key("ctrl+q");
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
@@ -143,7 +143,7 @@ TEST_F(ViewerEdits, editsOfAViewerThatASignalEndsAreOfferedAtTheNextStart) {
     again.key("r");
     again.waitFor("recovered ", mark);
     EXPECT_TRUE(pictureIn(again, again.waitForWhole(mark)) == dark);
-    // They are not saved yet.
+    // The recovered edits are not saved yet.
     again.key("ctrl+q");
     again.waitFor("edits are not saved", mark);
     again.pause(0.5);
@@ -155,13 +155,13 @@ TEST_F(ViewerEdits, editsOfAViewerThatASignalEndsAreOfferedAtTheNextStart) {
 }
 
 TEST_F(ViewerEdits, aClickRightAfterASaveIsHeard) {
-    DrivenViewer viewer = open({"hall", "--lights", "64"}); // whose pictures take longer than the click
+    DrivenViewer viewer = open({"hall", "--lights", "64"}); // its images take longer than the click
     viewer.waitForWhole(0);
     const int below = barOf(viewer, Section::Environment);
     const glm::ivec2 view(200, barOf(viewer, Section::View));
     const std::size_t mark = viewer.mark();
     viewer.key("F12");
-    viewer.click(view); // while the picture is drawn and written
+    viewer.click(view); // while the image is drawn and written
     viewer.waitFor("saved ", mark);
     viewer.moveTo(middlePixel());
     viewer.pause(1.0);
@@ -201,7 +201,7 @@ TEST_F(ViewerEdits, anotherVariantOfTheMaterialsKeepsEditsAndTheirHistory) {
     const glm::ivec2 aside = middlePixel() + glm::ivec2(150, 0);
     const Shot turned = after(viewer, [&] { viewer.drag(middlePixel(), aside, "shift", 3); }); // the environment
     EXPECT_GT(differingShare(turned, before, 4), 0.1);
-    // The list of variants is under that of scenes, a button and a line; its second entry is the first variant.
+    // The list of variants is below the list of scenes, a button and a line; its second entry is the first variant.
     constexpr int kListPixels = 90, kRedPixels = 42;
     const glm::ivec2 list(200, barOf(viewer, Section::Scene) + kListPixels);
     const std::size_t mark = viewer.mark();
@@ -224,16 +224,16 @@ TEST_F(ViewerEdits, aLightAddedAndDraggedGoesWithThePointer) {
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
     const Shot added = after(viewer, [&] { addLight(viewer); });
     EXPECT_GT(differingShare(added, before, 4), 0.3);
-    // It is halfway to the camera's pivot, in the middle of the picture.
+    // The light is halfway to the camera's pivot, in the centre of the image.
     const glm::ivec2 middle = kPictureCorner + before.sizePixels / 2, there = middle + glm::ivec2(120, -70);
     const Shot moved = after(viewer, [&] { viewer.drag(middle, there); });
     EXPECT_GT(differingShare(moved, added, 4), 0.2);
     const std::string saved = saveScene(viewer);
-    // What `render` does not draw is the marker, with a ring about it at the pointer, the arms that begin there, and
-    // the outline of the light's range.
+    // `render` does not draw the marker with its ring at the pointer, the arms that begin there, and the outline of the
+    // light's range.
     constexpr glm::ivec3 kRing(140, 195, 255);
     constexpr double kAboutPixels = 30.0;
-    constexpr int kSmoothed = 24; // steps that its inner pixels may be off, between those of its rims
+    constexpr int kSmoothed = 24; // tolerance for inner pixels blended with the rims
     const Shot without = rendered(saved, moved.sizePixels);
     const Shot with = pictureIn(viewer, moved.sizePixels);
     glm::dvec2 sum(0.0);
@@ -248,19 +248,19 @@ TEST_F(ViewerEdits, aLightAddedAndDraggedGoesWithThePointer) {
                 sum += glm::dvec2(x, y);
                 ringCount += 1.0;
             }
-    ASSERT_GT(ringCount, 20.0) << "there is no marker"; // of 56 pixels in the middle of its width
+    ASSERT_GT(ringCount, 20.0) << "there is no marker"; // the ring has 56 along the middle of its width
     EXPECT_LT(count, 6000.0) << "more than a marker, its arms and its range differs from what was saved";
     EXPECT_LT(glm::distance(sum / ringCount, glm::dvec2(there - kPictureCorner)), 4.0);
 }
 
-/// A row of the light that is selected, the first one below the buttons being 1, in the panel Lights. The light is a
-/// point light.
+/// Rows of the selected light's editor in the section of lights; row 1 is the first below the buttons. For a point
+/// light.
 enum PointLightRow { kMovesRow = 8, kWayRow = 9, kKeysOfIntensityRow = 11, kFirstPointRow = 10, kClosedRow = 15 };
 constexpr int kCheckboxX = 120, kAddKeyX = 140, kKeyTimeX = 40;
 
 class ViewerLightLife : public ViewerEdits {
 protected:
-    /// A viewer at 1.5 s whose panel Lights shows the one light of the scene, with room for all its rows.
+    /// Opens a viewer at 1.5 s whose section of lights shows the scene's only light, with space for all its rows.
     DrivenViewer openLight() {
         folder_.write("lamp.json", R"({
             "tessera": 1,
@@ -318,7 +318,7 @@ TEST_F(ViewerLightLife, aPathIsChosenOpenedItsPointsDraggedSavedAndUndone) {
     EXPECT_FALSE(path.contains("open"));
     ASSERT_EQ(path.at("points").size(), 4u);
     viewer.click(inLightRow(viewer, kClosedRow, kCheckboxX));
-    const glm::ivec2 x = inLightRow(viewer, kFirstPointRow + 1, 125); // of the second point
+    const glm::ivec2 x = inLightRow(viewer, kFirstPointRow + 1, 125); // x of the second point
     viewer.drag(x, x + glm::ivec2(60, 0));
     viewer.pause(0.5);
     const nlohmann::json edited = savedLight(viewer).at("animation");
@@ -336,10 +336,10 @@ TEST_F(ViewerEdits, aMaterialPickedByAClickAndEditedIsSaved) {
     constexpr int kMetallicRow = 4;
     const glm::ivec2 middle = inRow(viewer, Section::Materials, kMetallicRow, 200);
     const std::size_t edited = viewer.mark();
-    viewer.drag(middle, {kPanelPixels - 2, middle.y}); // past the slider's end, wherever a scroll bar leaves that
+    viewer.drag(middle, {kPanelPixels - 2, middle.y}); // past the slider's end, with or without a scroll bar
     viewer.waitFor("outlined metalness 0/4, roughness 4/10", edited);
     const Shot outlined = pictureIn(viewer, viewer.waitForWhole(edited));
-    toggle(viewer, Section::Materials); // takes the outline away
+    toggle(viewer, Section::Materials); // removes the outline
     const Shot metal = pictureIn(viewer, outlined.sizePixels);
     EXPECT_GT(differingShare(outlined, metal), 0.0005) << "the sphere has no outline";
     EXPECT_LT(differingShare(outlined, metal), 0.01) << "more than an outline";
@@ -368,7 +368,7 @@ TEST_F(ViewerEdits, aSceneThatCannotBeReadNeverTakesTheOneThatIsOpen) {
     DrivenViewer viewer = open({"other.json"});
     viewer.waitForWhole(0);
     const Shot room = change(viewer, "room");
-    // It takes long enough to read that nothing else moves in the window when that fails.
+    // Reading takes so long that nothing else changes in the window when it fails.
     folder_.write("other.json", good.substr(0, 20) + std::string(30'000'000, ' '));
     const std::size_t mark = viewer.mark();
     chooseRecentScene(viewer, 0);
@@ -382,7 +382,7 @@ TEST_F(ViewerEdits, aSceneThatCannotBeReadNeverTakesTheOneThatIsOpen) {
     viewer.key("Escape");
     viewer.pause(0.5);
     EXPECT_TRUE(pictureIn(viewer, room.sizePixels) == room);
-    // It goes on: the camera still moves.
+    // The viewer still works: the camera moves.
     EXPECT_GT(differingShare(after(viewer, [&] { viewer.drag(middlePixel(), middlePixel() + glm::ivec2(150, 60)); }),
                              room, 4),
               0.2);

@@ -1,4 +1,4 @@
-// Files that are opened and saved by the dialogs, with the keyboard alone.
+// Files opened and saved through the dialogs by keyboard, or dropped on the window.
 #include <filesystem>
 
 #include "tests/viewer/ViewerTest.h"
@@ -8,7 +8,7 @@ namespace {
 
 class ViewerFiles : public ViewerTest {
 protected:
-    /// Opens a dialog by its keys, and waits until it listens.
+    /// Opens a dialog by its keys, and waits until it accepts input.
     static void ask(const DrivenViewer& viewer, const std::string& keys, const std::string& said) {
         const std::size_t mark = viewer.mark();
         viewer.key(keys);
@@ -23,7 +23,7 @@ protected:
         viewer.key("Return");
         viewer.pause(0.5);
     }
-    /// What an opened scene is drawn as; a place in the log is from before.
+    /// The image of an opened scene; `mark` precedes the opening.
     static Shot opened(const DrivenViewer& viewer, std::size_t mark, const std::string& ending) {
         const std::string line = viewer.waitFor("opened ", mark);
         EXPECT_NE(line.find(ending + " seconds"), std::string::npos) << line;
@@ -39,14 +39,14 @@ TEST_F(ViewerFiles, aSceneInAFolderIsOpenedByTypedLettersArrowsAndEnter) {
     const Shot room = pictureIn(viewer, viewer.waitForWhole(0));
     askWhatToOpen(viewer);
     EXPECT_GT(differingShare(pictureIn(viewer, room.sizePixels), room), 0.3) << "the dialog is not there";
-    enter(viewer, "thi"); // into the folder
+    enter(viewer, "thi"); // enters the folder
     std::size_t mark = viewer.mark();
-    for (int i = 0; i < 3; ++i) viewer.key("Down"); // the folder above, "one", "two"
+    for (int i = 0; i < 3; ++i) viewer.key("Down"); // the parent folder, "one", "two"
     viewer.pause(0.3);
     viewer.key("Return");
     const Shot lattice = opened(viewer, mark, "things/two.json");
     EXPECT_TRUE(lattice == rendered("lattice", lattice.sizePixels));
-    // The folder is the first that the next dialog shows; Tab completes.
+    // The next dialog starts in this folder; Tab completes names.
     askWhatToOpen(viewer);
     mark = viewer.mark();
     viewer.type("o");
@@ -63,7 +63,7 @@ TEST_F(ViewerFiles, escapeLeavesTheDialogAndNothingIsDoneByLettersTypedIntoIt) {
     DrivenViewer viewer = open({"room"});
     const Shot room = pictureIn(viewer, viewer.waitForWhole(0));
     askWhatToOpen(viewer);
-    enter(viewer, "t7m"); // keys that mean something elsewhere, and no file
+    enter(viewer, "t7m"); // keys that mean something elsewhere, and match no file
     viewer.key("Escape");
     viewer.pause(0.7);
     EXPECT_TRUE(pictureIn(viewer, room.sizePixels) == room);
@@ -88,7 +88,7 @@ TEST_F(ViewerFiles, aBuiltInSceneAndAnEnvironmentAreOpenedByName) {
     viewer.pause(0.3);
     askWhatToOpen(viewer);
     mark = viewer.mark();
-    enter(viewer, radiance.substr(0, radiance.size() - 2)); // what is left of the name follows
+    enter(viewer, radiance.substr(0, radiance.size() - 2)); // the dialog completes the name
     viewer.waitFor("environment " + (folder_.path() / radiance).string(), mark);
     EXPECT_GT(differingShare(pictureIn(viewer, viewer.waitForWhole(mark)), spheres, 4), 0.1);
 }
@@ -108,7 +108,7 @@ TEST_F(ViewerFiles, whatIsDroppedOnTheWindowOpensAndOfSeveralTheFirstThatCanIsTo
     EXPECT_EQ(viewer.waitFor("note Of ", mark),
               "note Of 3 files dropped at once one.json opens; not unknown.txt, two.json");
     const glm::ivec2 size = opened(viewer, mark, "one.json").sizePixels;
-    viewer.key("Escape"); // the message that says so
+    viewer.key("Escape"); // dismisses the message
     viewer.pause(0.7);
     EXPECT_TRUE(pictureIn(viewer, size) == rendered("spheres", size));
 }
@@ -139,14 +139,14 @@ TEST_F(ViewerFiles, aSceneAndAPictureAreSavedUnderNamesOfTheUsersChoice) {
     const Shot shown = pictureIn(viewer, viewer.waitForWhole(0));
     askWhereToSave(viewer);
     std::size_t mark = viewer.mark();
-    enter(viewer, "kept/mine.json"); // in the place of the name that is proposed
+    enter(viewer, "kept/mine.json"); // replaces the proposed name
     viewer.waitFor("saved " + (folder_.path() / "kept" / "mine.json").string(), mark);
     EXPECT_TRUE(rendered("kept/mine.json", shown.sizePixels) == shown);
     viewer.key("Escape");
     viewer.pause(0.3);
     askWhereToSave(viewer);
     mark = viewer.mark();
-    enter(viewer, "kept/taken.png"); // which is there
+    enter(viewer, "kept/taken.png"); // an existing file
     viewer.key("Return");
     viewer.pause(0.5);
     EXPECT_EQ(shell("cat kept/taken.png"), "not a picture") << "Enter twice is no answer";
@@ -162,13 +162,13 @@ TEST_F(ViewerFiles, whereAFolderCannotBeWrittenAnotherPlaceIsAskedFor) {
     const Shot shown = pictureIn(viewer, viewer.waitForWhole(0));
     askWhereToSave(viewer);
     std::size_t mark = viewer.mark();
-    enter(viewer, "/proc/mine.png"); // where not even root can
+    enter(viewer, "/proc/mine.png"); // where not even root can write
     const std::string said = viewer.waitFor("error ", mark);
     EXPECT_NE(said.find("/proc/mine.png"), std::string::npos) << said;
     viewer.waitFor("asks where to save", mark);
     viewer.pause(0.7);
     mark = viewer.mark();
-    viewer.key("Return"); // the folder and the name that are proposed
+    viewer.key("Return"); // accepts the proposed folder and name
     const std::string saved = savedFile(viewer.waitFor("saved ", mark));
     EXPECT_EQ(saved, (home.path() / "mine.png").string());
     EXPECT_TRUE(readShot(saved) == shown);

@@ -1,4 +1,4 @@
-// A walk through the scene with the most lights, in which every picture takes long.
+// A walk through the scene with the most lights, in which every image takes long.
 #include "tests/viewer/ViewerTest.h"
 #include "validation/figures/ErrorFigures.h"
 
@@ -20,7 +20,7 @@ TEST_F(ViewerHallSlow, aWalkThroughAllOfItsLightsEditsComparesInspectsAndSaves) 
     // The first of the 258 lights is a lamp in the nave.
     makeRoom(viewer);
     toggle(viewer, Section::Lights);
-    // Of many lights the list has a field to search in, above it. Then it has one row.
+    // With many lights, a search field appears above the list. The search leaves one row.
     const glm::ivec2 searchRow(0, kRowPixels);
     viewer.click(inRow(viewer, Section::Lights, 2, 60));
     viewer.type("column foot 0");
@@ -39,7 +39,7 @@ TEST_F(ViewerHallSlow, aWalkThroughAllOfItsLightsEditsComparesInspectsAndSaves) 
     EXPECT_FALSE(brighter == selected) << "the lamp is in view";
     EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+z"); }) == selected) << "the drag is one step";
     EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+shift+z"); }) == brighter);
-    viewer.click(lightName(viewer, 0) + searchRow); // lets go of it
+    viewer.click(lightName(viewer, 0) + searchRow); // deselects it
     viewer.moveTo(middlePixel());
     viewer.pause(0.5);
     const Shot edited = pictureIn(viewer, size);
@@ -49,7 +49,7 @@ TEST_F(ViewerHallSlow, aWalkThroughAllOfItsLightsEditsComparesInspectsAndSaves) 
     EXPECT_EQ(lights.size(), 258u);
     EXPECT_TRUE(rendered(saved + " --technique clustered_deferred", size) == edited) << saved;
 
-    // The other side begins with a technique that shades the other way.
+    // The other side starts with a forward technique.
     std::size_t mark = viewer.mark();
     viewer.key("x"); // split
     viewer.key("x"); // difference
@@ -57,7 +57,7 @@ TEST_F(ViewerHallSlow, aWalkThroughAllOfItsLightsEditsComparesInspectsAndSaves) 
     const auto litShare = [](const Shot& shot) {
         return differingShare(shot, Shot{shot.sizePixels, std::vector<std::uint8_t>(shot.rgb.size(), 0)});
     };
-    // The first line names the sides; the second says that nothing differs, as soon as the figures are there.
+    // The first line names the sides; the second reports that nothing differs, once the figures are computed.
     constexpr int kLineStepPixels = 30, kNamesPixels = 80;
     Shot difference = pictureIn(viewer, size);
     const auto secondLine = [&] { return difference.part({0, kLineStepPixels}, {size.x / 2, kLineStepPixels}); };
@@ -68,13 +68,13 @@ TEST_F(ViewerHallSlow, aWalkThroughAllOfItsLightsEditsComparesInspectsAndSaves) 
     EXPECT_GT(litShare(secondLine()), 0.05) << "no figures, or none that say that the sides are equal, within a minute";
     EXPECT_EQ(litShare(difference.part({0, kNamesPixels}, {size.x, size.y - kNamesPixels})), 0.0);
     const Picture left = savedRadiance(viewer);
-    viewer.key("z"); // the other side
+    viewer.key("z"); // switches to the other side
     const Picture right = savedRadiance(viewer);
     const validation::RadianceFigures figures = validation::radianceFigures(left, right);
     EXPECT_EQ(figures.maxRel, 0.0) << "at " << figures.worstX << ", " << figures.worstY;
     viewer.key("z");
     viewer.key("x");
-    bool isAlone = false; // which no line tells: the picture may be there still
+    bool isAlone = false; // not logged: the image may still exist
     for (int i = 0; i < 120 && !isAlone; ++i) {
         viewer.pause(0.5);
         isAlone = pictureIn(viewer, size) == edited;
@@ -91,7 +91,7 @@ TEST_F(ViewerHallSlow, aWalkThroughAllOfItsLightsEditsComparesInspectsAndSaves) 
     EXPECT_FALSE(pictureIn(viewer, size) == edited) << "there is no loupe";
     viewer.key("i");
 
-    // What is undone is selected. Without the edit the scene is not the saved one.
+    // Undo selects the changed light. Without the edit, the scene differs from the saved one.
     EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+z"); }) == selected);
     mark = viewer.mark();
     viewer.key("ctrl+q");

@@ -1,4 +1,4 @@
-// What is dragged in the picture beside the camera: the selected light's handles, and the environment.
+// Dragging the selected light's handles and the environment in the image.
 #include <vector>
 
 #include <fmt/format.h>
@@ -21,25 +21,25 @@ TEST_F(ViewerHandles, aSideAndTheDirectionOfARectangleGoWithThePointer) {
     const auto saved = [&] { return readJson(saveScene(viewer)).at("lights").at(0); };
     const Shot marked = after(viewer, [&] {
         viewer.key("m");
-        viewer.click(middle);                           // on the marker: the light is selected
-        viewer.drag(middle, middle + glm::ivec2(0, 1)); // of which something is drawn anew
+        viewer.click(middle);                           // on the marker: selects the light
+        viewer.drag(middle, middle + glm::ivec2(0, 1)); // makes the viewer draw again
         viewer.drag(middle + glm::ivec2(0, 1), middle);
     });
     const glm::ivec2 side = middle + glm::ivec2(int(pixelsPerMetre), 0), step(80, 0);
     const double stepMetres = step.x / pixelsPerMetre;
-    constexpr double kPixelsMetres = 0.02; // three of them
+    constexpr double kPixelsMetres = 0.02; // three pixels
     const Shot wider = after(viewer, [&] { viewer.drag(side, side + step); });
     EXPECT_GT(differingShare(wider, marked, 4), 0.1);
     nlohmann::json light = saved();
     EXPECT_NEAR(light.at("width").get<double>(), 2.0 + 2.0 * stepMetres, kPixelsMetres);
     EXPECT_NEAR(light.at("position").at(0).get<double>(), 0.0, kPixelsMetres);
     EXPECT_EQ(light.at("height").get<double>(), 0.5);
-    // With Shift the left side stays.
+    // With Shift, the left side stays fixed.
     after(viewer, [&] { viewer.drag(side + step, side, "shift"); });
     light = saved();
     EXPECT_NEAR(light.at("width").get<double>(), 2.0 + stepMetres, kPixelsMetres);
     EXPECT_NEAR(light.at("position").at(0).get<double>(), -0.5 * stepMetres, kPixelsMetres);
-    // The handle of its direction is 70 pixels under its middle, and goes to the right of that.
+    // The direction's handle is 70 pixels below the centre, and is dragged to its right.
     const glm::ivec2 moved = middle - step / 2;
     after(viewer, [&] { viewer.drag(moved + glm::ivec2(0, 70), moved + glm::ivec2(70, 0)); });
     light = saved();
@@ -48,7 +48,7 @@ TEST_F(ViewerHandles, aSideAndTheDirectionOfARectangleGoWithThePointer) {
 }
 
 TEST_F(ViewerHandles, anArmMovesItsLightAlongOneAxisInOneStep) {
-    // A lamp in the picture's middle, 5 m ahead: the picture shows 5 m of height there. Its arm along z is not there.
+    // A lamp in the image's centre, 5 m ahead, where the image covers 5 m of height. Its arm along z is not drawn.
     folder_.write("lamp.json", R"({
         "tessera": 1,
         "base": {"file": "builtin:room"},
@@ -64,12 +64,12 @@ TEST_F(ViewerHandles, anArmMovesItsLightAlongOneAxisInOneStep) {
         return readJson(saveScene(viewer)).at("lights").at(0).at("position").get<std::vector<double>>();
     };
     viewer.key("m");
-    viewer.click(middle); // on the marker: the light is selected
+    viewer.click(middle); // on the marker: selects the light
     viewer.pause(0.5);
     constexpr int kArmPixels = 100, kStepPixels = 80;
     const double stepMetres = kStepPixels / pixelsPerMetre;
     constexpr double kRoundedMetres = 0.02; // three pixels
-    // To the right: x. The saved numbers are those of the file, but for one.
+    // To the right: x. The other saved numbers equal those of the file.
     const glm::ivec2 armX = middle + glm::ivec2(kArmPixels, 0), step(kStepPixels, 0);
     after(viewer, [&] { viewer.drag(armX, armX + step); });
     std::vector<double> position = savedPosition();
@@ -78,7 +78,7 @@ TEST_F(ViewerHandles, anArmMovesItsLightAlongOneAxisInOneStep) {
     EXPECT_EQ(position[1], 1.5);
     EXPECT_EQ(position[2], -2.5);
     const double x = position[0];
-    // Upwards: y. What the pointer goes aside counts for nothing.
+    // Upwards: y. Sideways movement of the pointer has no effect.
     const glm::ivec2 armY = middle + step - glm::ivec2(0, kArmPixels);
     after(viewer, [&] { viewer.drag(armY, armY + glm::ivec2(30, -kStepPixels)); });
     position = savedPosition();
@@ -95,30 +95,30 @@ TEST_F(ViewerHandles, theRightButtonWithShiftTurnsTheEnvironment) {
     DrivenViewer viewer = open(words);
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
     const glm::ivec2 from = kPictureCorner + glm::ivec2(100, before.sizePixels.y / 2);
-    const glm::ivec2 half(before.sizePixels.y / 2, 0); // of the picture's height: 90 degrees
+    const glm::ivec2 half(before.sizePixels.y / 2, 0); // half the image's height: 90 degrees
     const Shot turned = after(viewer, [&] { viewer.drag(from, from + half, "shift", 3); });
     EXPECT_GT(differingShare(turned, before, 4), 0.1);
     const Shot expected =
         rendered(fmt::format("{} --environment-rotation 90", fmt::join(words, " ")), before.sizePixels);
-    // An odd height has no half, and every step of the drag is rounded.
+    // Half of an odd height is not whole, and every step of the drag is rounded.
     EXPECT_LT(differingShare(turned, expected, 4), 0.02);
     const Shot back = after(viewer, [&] { viewer.drag(from + half, from, "shift", 3); });
     EXPECT_LT(differingShare(back, before, 4), 0.02);
-    // A drag is a step, which is undone to the last bit: both drags are.
+    // Each of the two drags is one step, undone to the last bit.
     EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+z"); }) == turned);
     EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+z"); }) == before);
     EXPECT_TRUE(after(viewer, [&] { viewer.key("ctrl+shift+z"); }) == turned);
-    // It is not lost without a question.
+    // Closing opens a dialog before the edit is lost.
     const std::size_t mark = viewer.mark();
     viewer.key("ctrl+q");
     viewer.waitFor("edits are not saved", mark);
     viewer.pause(0.5);
     viewer.key("Escape");
     viewer.pause(0.5);
-    // What is saved lies as it is seen.
+    // The saved rotation is the displayed one.
     const nlohmann::json environment = readJson(saveScene(viewer)).at("environment");
     EXPECT_NEAR(environment.at("rotationDegrees").get<double>(), 90.0, 1.0) << environment;
-    viewer.key("ctrl+q"); // without a question
+    viewer.key("ctrl+q"); // no question
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
 }
 

@@ -1,4 +1,4 @@
-// How soon the window answers, from outside: from the order to make an X event to the picture on the screen.
+// Latency of the window, measured from outside: from the order for an X event to the image on the screen.
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace tessera::test {
 namespace {
 
-/// Moves the pointer and presses keys by one xdotool that waits for orders; to start one for each takes 25 ms.
+/// Moves the pointer and presses keys through one xdotool that reads orders; starting one per order takes 25 ms.
 class QuickPointer {
 public:
     QuickPointer(const Desktop& desktop, const std::filesystem::path& folder) {
@@ -21,20 +21,20 @@ public:
         if (mkfifo(pipe.c_str(), 0600) != 0) throw std::runtime_error("cannot make " + pipe.string());
         process_ = std::make_unique<Process>(std::vector<std::string>{"sh", "-c", "exec xdotool - <pointer"},
                                              ProcessOptions{folder, {{"DISPLAY", desktop.display()}}, 600.0});
-        orders_.open(pipe); // waits until it is read
+        orders_.open(pipe); // blocks until it is read
     }
     void moveTo(glm::ivec2 pixel) { order(fmt::format("mousemove {} {}", pixel.x, pixel.y)); }
     void press(const std::string& key) { order("key " + key); }
 
 private:
-    void order(const std::string& line) { orders_ << line << std::endl; } // at once
+    void order(const std::string& line) { orders_ << line << std::endl; } // flushed
     std::unique_ptr<Process> process_;
     std::ofstream orders_;
 };
 
 class ViewerLatencySlow : public ViewerTest {
 protected:
-    /// Orders input and waits for the next picture; milliseconds. It includes up to 5 ms until the log is read.
+    /// Orders input and waits for the next image; milliseconds. Includes up to 5 ms until the log is read.
     template <class Order>
     static double answerMs(const DrivenViewer& viewer, const Order& order) {
         using Clock = std::chrono::steady_clock;
@@ -90,7 +90,7 @@ TEST_F(ViewerLatencySlow, inputOnHallIsAnsweredWithinATenthOfASecond) {
     press(false);
     report("moves of a drag", during);
 
-    // The picture is drawn whole 150 ms after the latest move; that takes longer than 100 ms.
+    // The whole image is drawn 150 ms after the latest move, and takes longer than 100 ms.
     for (int i = 0; i < 12; ++i) {
         viewer.moveTo(middlePixel());
         press(true);

@@ -1,4 +1,4 @@
-// Names in letters of other scripts.
+// Names in other scripts.
 #include <algorithm>
 #include <filesystem>
 
@@ -10,14 +10,14 @@ namespace {
 using ViewerNames = ViewerTest;
 
 TEST_F(ViewerNames, ofChineseJapaneseAndKoreanHaveTheirLettersInTheListAndInFiles) {
-    // Of those that the viewer looks for the ones with letters of all three.
+    // Of the fonts that the viewer looks for, those with letters of all three scripts.
     constexpr const char* kFontsOfAll[] = {"/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
                                            "/usr/share/fonts/truetype/wqy/wqy-microhei.ttc"};
     if (std::ranges::none_of(kFontsOfAll, [](const char* file) { return std::filesystem::exists(file); }))
         GTEST_SKIP() << "neither fonts-wqy-microhei nor fonts-noto-cjk is installed";
     constexpr const char* kLamp = "\xe7\x81\xaf"; // U+706F
-    // As many as the list shows, of Chinese, Japanese and Korean; U+1F4A1 has another sign in its place, whatever is
-    // installed.
+    // As many names as the list shows, in Chinese, Japanese and Korean; U+1F4A1 is drawn as a replacement sign,
+    // whatever fonts are installed.
     const std::vector<std::string> names{kLamp,          "\xe5\x85\x89", "\xe3\x81\x82",
                                          "\xe3\x82\xa2", "\xed\x95\x9c", "\xf0\x9f\x92\xa1"};
     nlohmann::json scene{{"tessera", 1}, {"base", {{"file", "builtin:room"}}}, {"lights", nlohmann::json::array()}};
@@ -31,19 +31,19 @@ TEST_F(ViewerNames, ofChineseJapaneseAndKoreanHaveTheirLettersInTheListAndInFile
     viewer.key("ctrl+o");
     viewer.waitFor("asks what to open", mark);
     viewer.pause(0.7);
-    viewer.type("thi"); // into the folder
+    viewer.type("thi"); // enters the folder
     viewer.pause(0.3);
     viewer.key("Return");
     viewer.pause(0.5);
     mark = viewer.mark();
-    for (int i = 0; i < 2; ++i) viewer.key("Down"); // the folder above, the file
+    for (int i = 0; i < 2; ++i) viewer.key("Down"); // the parent folder, the file
     viewer.pause(0.3);
     viewer.key("Return");
     const std::string opened = viewer.waitFor("opened ", mark);
     EXPECT_NE(opened.find("things/" + file), std::string::npos) << opened;
     viewer.waitForWhole(mark);
     toggle(viewer, Section::Lights);
-    // The first letter of each name, behind the light's swatch. What differs is ink: rows are less apart than that.
+    // The first letter of each name, right of the light's swatch. Only ink counts: rows differ by less than that.
     constexpr int kLetterX = 52, kInkSteps = 60;
     constexpr glm::ivec2 kLetterPixels(18, 18);
     std::vector<Shot> letters;
@@ -64,7 +64,7 @@ TEST_F(ViewerNames, ofChineseJapaneseAndKoreanHaveTheirLettersInTheListAndInFile
         for (std::size_t j = 0; j < i; ++j)
             EXPECT_GT(differingShare(letters[i], letters[j], kInkSteps), 0.02) << "it looks like " << names[j];
     }
-    // What is saved has them too, in its own name and inside.
+    // The saved file has the letters too, in its name and its contents.
     viewer.click(lightSwitch(viewer, 1));
     viewer.moveTo(middlePixel());
     const std::string saved = saveScene(viewer);

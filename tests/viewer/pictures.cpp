@@ -1,4 +1,4 @@
-// The window's picture equals the file that `tessera render` writes.
+// The window's image equals the file that `tessera render` writes.
 #include <string>
 #include <vector>
 
@@ -16,11 +16,11 @@ namespace {
 
 class ViewerPictures : public ViewerTest {
 protected:
-    /// Of the hall in all its lights, or of the spheres, which are drawn in a tenth of the time.
+    /// Compares the hall with 256 lights in a whole sweep, else the spheres, which are drawn in a tenth of the time.
     void expectThePictureOfRender();
-    /// On 256 texels, or on 64.
+    /// With 256 diffusion texels in a whole sweep, else 64.
     void expectSpreadLightOfACameraThatMoves();
-    /// What the window tells of the pixel under the pointer once all rests; inspecting begins for it, and ends.
+    /// The inspector's text for the pixel under the pointer, once nothing changes. Inspecting starts and ends here.
     static std::string saidOfPixel(const DrivenViewer& viewer) {
         const std::size_t mark = viewer.mark();
         viewer.key("i");
@@ -31,9 +31,9 @@ protected:
 };
 using ViewerPicturesSlow = ViewerPictures;
 
-/// Height at the top of the picture that names and meaning of a view take.
+/// Height of the names and meaning of a view at the top of the image.
 constexpr int kTitlePixels = 80;
-/// What is below them.
+/// The image below them.
 Shot belowTitle(const Shot& shot) {
     return shot.part({0, kTitlePixels}, {shot.sizePixels.x, shot.sizePixels.y - kTitlePixels});
 }
@@ -56,7 +56,7 @@ void ViewerPictures::expectThePictureOfRender() {
     EXPECT_TRUE(pictureIn(viewer, viewer.waitForWhole(mark)) == shown) << "techniques differ";
     EXPECT_NE(viewer.waitFor("drawn", mark).find("technique clustered_forward"), std::string::npos);
 
-    // Views by their keys, and back. That of G is of the brightest light.
+    // Views by their keys, and back. The view of G (key 5) shows the brightest light.
     for (const auto& [key, options] : {std::pair("3", ""), std::pair("5", " --solo ")}) {
         SCOPED_TRACE(key);
         mark = viewer.mark();
@@ -76,7 +76,7 @@ void ViewerPictures::expectThePictureOfRender() {
                                  pasted.part({0, 0}, {size.x / 2, kTitlePixels})),
                   0.1)
             << "nothing in the picture says which view it is";
-        viewer.key("Escape"); // the message that says so
+        viewer.key("Escape"); // dismisses the message
         viewer.pause(0.3);
     }
     mark = viewer.mark();
@@ -113,7 +113,7 @@ TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
                     pixel.y, size.x, size.y, radiance[0], radiance[1], radiance[2], shown.x, shown.y, shown.z)))
         << said;
     EXPECT_NE(said.find("; material metalness 0/4, roughness 4/10; depth "), std::string::npos) << said;
-    // The loupe's middle is 90 pixels off, each pixel 8 wide, where there is room for it below and to the right.
+    // The loupe's centre is 90 pixels off, each pixel 8 wide, if there is space for it below and to the right.
     constexpr int kBoxPixels = 300;
     const bool isBelow = std::min(size.x - pixel.x, size.y - pixel.y) > kBoxPixels;
     EXPECT_TRUE(isBelow || screenPixels() == glm::ivec2(800, 600));
@@ -121,7 +121,7 @@ TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
         if (!isBelow) continue;
         EXPECT_EQ(inspected.at(pixel + 90 + 8 * off), alone.at(pixel + off)) << off.x << ", " << off.y;
     }
-    viewer.key("Escape"); // the message
+    viewer.key("Escape"); // dismisses the message
     viewer.key("i");
     viewer.pause(1.0);
     EXPECT_TRUE(pictureIn(viewer, size) == alone);
@@ -133,8 +133,8 @@ TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
     std::sscanf(normals.c_str() + picture, "; normal %lf %lf %lf", &ofPicture.x, &ofPicture.y, &ofPicture.z);
     std::sscanf(normals.c_str() + ray, "; shading normal %lf %lf %lf", &ofRay.x, &ofRay.y, &ofRay.z);
     EXPECT_NEAR(glm::length(ofRay), 1.0, 1e-3) << normals;
-    // Four digits are told, and a rasteriser may snap corners by 1/256 of a pixel, which of this sphere of some 45
-    // pixels turns the normal by 1e-4. The triangle's own normal is off by up to 0.05.
+    // Four digits are logged, and a rasteriser may snap vertices by 1/256 of a pixel, which turns the normal of this
+    // sphere of some 45 pixels by 1e-4. The triangle's face normal is off by up to 0.05.
     EXPECT_LT(glm::distance(ofPicture, ofRay), 1e-3) << normals;
 }
 
@@ -145,12 +145,12 @@ TEST_F(ViewerPictures, theInspectorTellsHowManyLightsEachSideVisits) {
     std::size_t mark = viewer.mark();
     viewer.key("shift+F12");
     const Picture counts = exr(savedFile(viewer.waitFor("saved ", mark)));
-    viewer.key("Escape"); // the message
+    viewer.key("Escape"); // dismisses the message
     viewer.pause(0.3);
     const auto countAt = [&](glm::ivec2 pixel) {
         return counts.pixel(std::size_t(pixel.y * counts.width + pixel.x))[0];
     };
-    // The one that visits most in the middle of the left half, away from the divider and from edges of surfaces.
+    // The pixel that visits most lights in the middle of the left half, away from the divider and surface edges.
     glm::ivec2 pixel(0);
     for (int y = size.y / 4; y < size.y * 3 / 4; ++y)
         for (int x = size.x / 8; x < size.x * 3 / 8; ++x) {
@@ -176,7 +176,7 @@ TEST_F(ViewerPictures, theInspectorTellsHowManyLightsEachSideVisits) {
     viewer.key("z");
     viewer.pause(0.5);
     mark = viewer.mark();
-    viewer.key("t"); // forward at the right, two on from its default, which visits all
+    viewer.key("t"); // forward at the right, two steps from its default; it visits all lights
     viewer.key("t");
     viewer.waitForWhole(mark);
     said = saidOfPixel(viewer);
@@ -189,7 +189,7 @@ TEST_F(ViewerPictures, theInspectorTellsHowManyLightsEachSideVisits) {
     expectSaid(said, fmt::format("; {}; Right; ", visited));
     expectSaid(said, fmt::format("; visits {0} lights; difference {1} {1} {1}; material ", all, most - all));
 
-    viewer.key("7"); // lit pictures
+    viewer.key("7"); // lit images
     viewer.key("z");
     viewer.pause(0.5);
     mark = viewer.mark();
@@ -210,16 +210,16 @@ TEST_F(ViewerPictures, aClickOnTheLargestErrorOfAComparisonInspectsItsPixel) {
     std::size_t mark = viewer.mark();
     viewer.key("x"); // split
     viewer.key("x"); // difference
-    viewer.key("3"); // another view at the left
+    viewer.key("3"); // another view on the left side
     viewer.waitForWhole(mark);
     const Picture left = savedRadiance(viewer);
-    viewer.key("z"); // the other side
+    viewer.key("z"); // switches to the other side
     const Picture right = savedRadiance(viewer);
     const validation::RadianceFigures figures = validation::radianceFigures(left, right);
     ASSERT_GT(figures.maxRel, 0.0);
 
     toggle(viewer, Section::Compare);
-    // Below Compare, Active side, Amplified, Bit-equal, relMse, median rel and p99 rel; greyed until they are measured.
+    // The line after Compare, Active side, Amplified, Bit-equal, relMse, median rel and p99 rel; greyed until measured.
     constexpr std::size_t kWorst = 7;
     std::vector<int> lines = linesOf(viewer, Section::Compare);
     for (int i = 0; i < 120 && lines.size() <= kWorst; ++i) {
@@ -257,7 +257,7 @@ TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {
     std::string command = viewer.waitFor("command ", mark);
     command = command.substr(command.find(' ') + 1);
     EXPECT_TRUE(command.starts_with("tessera render models ")) << command;
-    // The command names its own file; the last option counts.
+    // Replaces the file that the command names.
     shell(command.substr(0, command.rfind(" -o ")) + " -o pasted.exr");
     const Picture a = exr(saved), b = exr("pasted.exr");
     ASSERT_EQ(a.width, b.width);
@@ -266,14 +266,13 @@ TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {
     viewer.key("F12");
     const std::string png = savedFile(viewer.waitFor("saved ", mark));
     const Shot file = readShot(folder_.path() / png);
-    viewer.key("Escape"); // the message that says where the file is
+    viewer.key("Escape"); // dismisses the message
     viewer.pause(1.0);
     EXPECT_TRUE(pictureIn(viewer, file.sizePixels) == file) << "the screenshot is not what the window shows";
 }
 
 void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
-    // In the marble of the bust light spreads far enough for coarse texels; of the scan a note would lie over the
-    // picture.
+    // In the bust's marble light diffuses far enough for coarse texels; for the scan a note would cover the image.
     const tessera::test::AssetsFolder none(nullptr);
     const std::string scene = isWholeSweep() ? "head_skin" : "head_marble", texels = isWholeSweep() ? "256" : "64";
     DrivenViewer viewer = open({scene, "--diffusion-texels", texels});
@@ -281,7 +280,7 @@ void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
     EXPECT_TRUE(pictureIn(viewer, size) == rendered(asOpened(scene, size) + " --diffusion-texels " + texels, size));
     viewer.waitFor("spread light in view", 0);
     viewer.waitFor("spread light everywhere", 0);
-    // Nobody waits for the light with a coarse picture.
+    // The image at full resolution does not wait for diffusion.
     const std::vector<std::string> opening = viewer.lines();
     const auto at = [&](const auto& is) { return std::ranges::find_if(opening, is) - opening.begin(); };
     EXPECT_LT(at([](const std::string& line) {
@@ -289,7 +288,7 @@ void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
                          line.ends_with(" lacks light");
               }),
               at([](const std::string& line) { return line == "spread light in view"; }));
-    // To another side: nothing is left to be spread.
+    // Viewing another side needs no further diffusion.
     std::size_t mark = viewer.mark();
     viewer.drag(middlePixel(), middlePixel() + glm::ivec2(300, 20));
     const Shot shown = pictureIn(viewer, viewer.waitForWhole(mark));
@@ -314,10 +313,10 @@ TEST_F(ViewerPictures, ctrlAndTheWheelMagnifyPixelsAndKeysPinAndCopyWhatIsToldOf
     const Shot whole = pictureIn(viewer, viewer.waitForWhole(0));
     const glm::ivec2 size = whole.sizePixels, middle = size / 2;
     viewer.moveTo(kPictureCorner + middle);
-    viewer.wheel(3, "ctrl"); // 8 times
+    viewer.wheel(3, "ctrl"); // magnifies 8 times
     viewer.pause(1.0);
     const Shot large = pictureIn(viewer, size);
-    // The pixel under the pointer stays there, and is a square of one colour with its neighbours beside it.
+    // The pixel under the pointer stays there, as a square of one colour with its neighbours beside it.
     constexpr int kTimes = 8, kReach = 5;
     int wrong = 0;
     for (int y = -kReach; y <= kReach; ++y)
@@ -358,7 +357,7 @@ TEST_F(ViewerPictures, edgesAreSmoothedAtRestAndFilesAreNot) {
     EXPECT_TRUE(readShot(folder_.path() / savedFile(viewer.waitFor("saved ", mark))) == plain);
     viewer.key("Escape");
     mark = viewer.mark();
-    viewer.key("bracketright"); // another exposure begins anew
+    viewer.key("bracketright"); // a change of exposure restarts smoothing
     viewer.waitForWhole(mark);
     viewer.waitFor("smoothed", mark, 300.0);
 }
@@ -366,7 +365,7 @@ TEST_F(ViewerPictures, edgesAreSmoothedAtRestAndFilesAreNot) {
 TEST_F(ViewerPictures, heatColoursEndAtTheLargestCountAsInTheFileOfRender) {
     DrivenViewer viewer = open({"room", "--fov", "62", "--view", "lights", "--technique", "clustered_deferred"});
     const glm::ivec2 size = viewer.waitForWhole(0);
-    viewer.pause(1.0); // once it is whole it is counted
+    viewer.pause(1.0); // lights are counted once the image is whole
     // Left of the legend.
     const auto beside = [&](const Shot& shot) {
         return shot.part({0, kTitlePixels}, {size.x / 2, size.y - kTitlePixels});
@@ -377,7 +376,7 @@ TEST_F(ViewerPictures, heatColoursEndAtTheLargestCountAsInTheFileOfRender) {
     ASSERT_EQ(glm::ivec2(layout.width, layout.height), file.sizePixels);
     ASSERT_EQ(layout.scale, 1);
     const Shot inFile = file.part({layout.pictureX, layout.pictureY}, size);
-    // The program and the graphics driver may round a colour to different sides.
+    // The program and the graphics driver may round a colour differently.
     EXPECT_EQ(differingShare(beside(pictureIn(viewer, size)), beside(inFile), 1), 0.0);
 }
 
@@ -407,7 +406,7 @@ TEST_F(ViewerPictures, aComparisonDrawsNoSideWhosePictureIsThere) {
     EXPECT_TRUE(both.part({size.x, 0}, size) == both.part({0, 0}, size)) << "techniques are equal to the last bit";
     viewer.key("Escape");
     mark = viewer.mark();
-    for (int i = 0; i < 3; ++i) { // difference, one picture, split
+    for (int i = 0; i < 3; ++i) { // difference, single image, split
         viewer.key("x");
         viewer.pause(0.7);
     }
@@ -415,20 +414,20 @@ TEST_F(ViewerPictures, aComparisonDrawsNoSideWhosePictureIsThere) {
 }
 
 TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {
-    // Through the field of view that its camera is made for: the scene fills much of the picture.
+    // With the field of view that its camera is made for, the scene fills much of the image.
     DrivenViewer viewer = open({"lattice", "--fov", "45", "--technique", "forward"});
     const glm::ivec2 size = viewer.waitForWhole(0);
     const Shot alone = pictureIn(viewer, size);
     std::size_t mark = viewer.mark();
     viewer.key("x"); // split
     viewer.key("z");
-    viewer.key("t"); // the other side
+    viewer.key("t"); // changes the other side
     viewer.waitForWhole(mark);
     const Shot split = pictureIn(viewer, size);
     // The divider, its handle and the names of the sides cover little.
     EXPECT_LT(differingShare(split, alone), 0.03);
     EXPECT_GT(differingShare(split, alone), 0.0005) << "there is no divider";
-    viewer.key("x"); // difference, of the two pictures that are there
+    viewer.key("x"); // difference of the two existing images
     viewer.pause(2.0);
     const Shot difference = pictureIn(viewer, size);
     const auto litShare = [](const Shot& shot) {

@@ -1,4 +1,4 @@
-// The pointer's shape, which says what a press does.
+// The pointer's shape, which indicates what a press does.
 #include <functional>
 
 #include "tests/viewer/Cursor.h"
@@ -9,7 +9,7 @@ namespace {
 
 class ViewerPointer : public ViewerTest {
 protected:
-    /// The pointer's shape once it is as expected; after 10 s what it is then.
+    /// Waits up to 10 s for the expected pointer; returns the latest one.
     static Cursor cursorOnce(const DrivenViewer& viewer, const std::function<bool(const Cursor&)>& isExpected) {
         Cursor cursor = cursorOf(desktop_->display());
         for (int i = 0; i < 100 && !isExpected(cursor); ++i) {
@@ -24,9 +24,9 @@ TEST_F(ViewerPointer, hasShapesOfItsOwnOnHandlesAndOnTheDivider) {
     DrivenViewer viewer = openPanel();
     const glm::ivec2 size = viewer.waitForWhole(0);
     const glm::ivec2 middle = kPictureCorner + size / 2;
-    const glm::ivec2 beside = kPictureCorner + glm::ivec2(size.x / 8, size.y / 4); // nothing is dragged there
+    const glm::ivec2 beside = kPictureCorner + glm::ivec2(size.x / 8, size.y / 4); // nothing can be dragged there
     viewer.key("m");
-    viewer.click(middle); // on the marker: the light is selected
+    viewer.click(middle); // on the marker: selects the light
     const auto isWide = [](const Cursor& cursor) { return cursor.extentPixels().x > cursor.extentPixels().y; };
     const auto isTall = [](const Cursor& cursor) { return cursor.extentPixels().x < cursor.extentPixels().y; };
 
@@ -39,7 +39,7 @@ TEST_F(ViewerPointer, hasShapesOfItsOwnOnHandlesAndOnTheDivider) {
     EXPECT_FALSE(plain == leftRight);
     EXPECT_GT(plain.extentPixels().x, 0) << "there is no pointer";
 
-    constexpr int kTipPixels = 100, kDirectionPixels = 70; // of the arm along y, and of the direction's handle
+    constexpr int kTipPixels = 100, kDirectionPixels = 70; // offsets of the arm along y, and of the direction's handle
     const auto isAnother = [&](const Cursor& cursor) { return cursor != plain && cursor != leftRight; };
     viewer.moveTo(middle - glm::ivec2(0, kTipPixels));
     const Cursor upDown = cursorOnce(viewer, isAnother);
@@ -50,7 +50,7 @@ TEST_F(ViewerPointer, hasShapesOfItsOwnOnHandlesAndOnTheDivider) {
     const auto isHand = [&](const Cursor& cursor) { return isAnother(cursor) && cursor != upDown; };
     EXPECT_TRUE(isHand(cursorOnce(viewer, isHand))) << "a direction is dragged anywhere";
 
-    // The divider is in the picture's middle, and from top to bottom.
+    // The divider is in the centre of the image, from top to bottom.
     const glm::ivec2 divider(middle.x, size.y / 8);
     viewer.moveTo(divider);
     EXPECT_TRUE(cursorOnce(viewer, [&](const Cursor& cursor) { return cursor == plain; }) == plain);

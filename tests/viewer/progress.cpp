@@ -1,4 +1,4 @@
-// A picture that takes long: how far it is, its steps, and how it is cancelled.
+// Progress of a slow image, its steps, and cancelling it.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -13,13 +13,13 @@ namespace {
 
 class ViewerProgressSlow : public ViewerTest {
 protected:
-    /// Every light at every pixel: on two cores a whole picture takes seconds.
+    /// Every light at every pixel: a whole image takes seconds on two cores.
     static inline const std::vector<std::string> kSlowScene{"hall", "--technique", "forward"};
 
-    /// Whether the box of progress stands in the picture's lower left: nothing else has its grey in so many pixels.
+    /// Whether the progress box is at the lower left of the image: nothing else has as many pixels of its grey.
     static bool hasBox(const DrivenViewer& viewer) {
         constexpr glm::ivec3 kBox(20, 21, 24);
-        constexpr int kLeastPixels = 10000; // of some 19000, words and a bar included, in a window of any size
+        constexpr int kLeastPixels = 10000; // of some 19000 including text and a bar, in a window of any size
         const Shot shot = viewer.capture();
         const glm::ivec2 picture = shot.sizePixels - kPictureCorner;
         const Shot part =
@@ -29,7 +29,7 @@ protected:
             for (int x = 0; x < part.sizePixels.x; ++x) boxed += part.at({x, y}) == kBox ? 1 : 0;
         return boxed > kLeastPixels;
     }
-    /// Scales of the pictures drawn between two places of the log.
+    /// Scales of the images drawn between two marks.
     static std::vector<double> scales(const DrivenViewer& viewer, std::size_t from, std::size_t to) {
         std::vector<double> drawn;
         const std::vector<std::string> lines = viewer.lines();
@@ -40,7 +40,7 @@ protected:
         }
         return drawn;
     }
-    /// Presses Esc while a picture is drawn, and waits until it is left.
+    /// Presses Esc while an image is drawn, and waits until drawing is cancelled.
     static void cancel(const DrivenViewer& viewer) {
         const std::size_t mark = viewer.mark();
         const auto began = std::chrono::steady_clock::now();
@@ -75,7 +75,7 @@ TEST_F(ViewerProgressSlow, aLongPictureTellsHowFarItIsGetsFinerByStepsAndEscLeav
     EXPECT_TRUE(scales(viewer, mark, viewer.mark()).empty()) << "it was drawn on";
     EXPECT_TRUE(viewer.capture() == left) << "something moves in a window that rests";
 
-    // Any other picture is drawn, and by Enter the one that was left; shares grow until it is there.
+    // Enter draws the cancelled image, like any other; its progress grows until it is finished.
     mark = viewer.mark();
     viewer.key("Return");
     const glm::ivec2 size = viewer.waitForWhole(mark);
@@ -93,7 +93,7 @@ TEST_F(ViewerProgressSlow, aLongPictureTellsHowFarItIsGetsFinerByStepsAndEscLeav
 }
 
 TEST_F(ViewerProgressSlow, aDifferenceTellsWhichSideIsDrawnAndIsCancelledToo) {
-    DrivenViewer viewer = open(kSlowScene); // the right side begins with a quick technique
+    DrivenViewer viewer = open(kSlowScene); // the right side starts with a fast technique
     viewer.waitFor("drawn ", 0);
     const std::size_t begin = viewer.mark();
     viewer.key("x"); // split
@@ -112,7 +112,7 @@ TEST_F(ViewerProgressSlow, aDifferenceTellsWhichSideIsDrawnAndIsCancelledToo) {
 }
 
 TEST_F(ViewerProgressSlow, aLoadThatFiltersAnEnvironmentSaysSoUntilThePictureIsThere) {
-    // Nothing that was filtered is kept there.
+    // The folder holds no filtered environments.
     const std::string cache = (folder_.path() / "cache").string();
     DrivenViewer viewer = open({"spheres", "--environment", "sky"}, {{"XDG_CACHE_HOME", cache}});
     bool wasThere = false;
@@ -123,7 +123,7 @@ TEST_F(ViewerProgressSlow, aLoadThatFiltersAnEnvironmentSaysSoUntilThePictureIsT
 }
 
 TEST_F(ViewerProgressSlow, escGivesUpAnEnvironmentThatIsLoadedBeforeThePictureThatIsDrawnMeanwhile) {
-    constexpr std::size_t kTexels = 2048 * 1024; // which take seconds to filter
+    constexpr std::size_t kTexels = 2048 * 1024; // take seconds to filter
     folder_.write("grey.hdr",
                   "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1024 +X 2048\n" + std::string(4 * kTexels, '\x80'));
     DrivenViewer viewer = open(kSlowScene, {{"XDG_CACHE_HOME", (folder_.path() / "cache").string()}});

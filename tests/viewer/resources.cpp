@@ -1,4 +1,4 @@
-// The window that shows what resources of the render graph hold.
+// The window that shows the contents of the render graph's resources.
 #include <string>
 #include <vector>
 
@@ -31,7 +31,7 @@ TEST_F(ViewerResources, aClickOnAResourceOfTheGraphShowsWhatItHolds) {
     EXPECT_NE(captured.find(fmt::format("{} x {}", size.x, size.y)), std::string::npos) << captured;
     const Shot shown = pictureIn(viewer, size);
     EXPECT_GT(differingShare(shown, before, 8), 0.2) << "a window lies over the picture";
-    // Without the panels the picture has another size, and so has the texture.
+    // Without the panels the image has another size, and so has the texture.
     mark = viewer.mark();
     viewer.key("Tab");
     EXPECT_NE(viewer.waitFor("captured ", mark), captured);

@@ -1,4 +1,4 @@
-// Shaders and hooks are read again when their files change; a mistake is shown while the last good picture stays.
+// Shaders and hooks are reloaded when their files change; an error is shown while the last good image stays.
 #include <fstream>
 #include <sstream>
 
@@ -38,7 +38,7 @@ TEST_F(ViewerShaders, aBrokenShaderNeverTakesThePictureAndItsMendingIsSeen) {
     viewer.pause(1.0);
     for (const std::string& line : viewer.lines())
         EXPECT_EQ(line.find("It is program"), std::string::npos) << "its defines bury the error: " << line;
-    // The message covers the lower part, the picture above it is the last good one.
+    // The message covers the lower part; above it is the last good image.
     const glm::ivec2 upper(size.x, size.y / 2);
     const Shot broken = pictureIn(viewer, size);
     EXPECT_TRUE(broken.part({0, 0}, upper) == good.part({0, 0}, upper));
@@ -87,7 +87,7 @@ TEST_F(ViewerHooks, anEditedHookIsReadWhileNothingElseHappensAndTheOutlineFollow
         "hook": {"file": "lift.glsl", "mayMoveMetres": 0.5},
         "cameras": [{"name": "front", "position": [0, 0, 8], "target": [0, 0, 0], "fovYDegrees": 30}]})");
     DrivenViewer viewer = open({"card.json"});
-    const glm::ivec2 size = viewer.waitForWhole(0), upper(size.x, size.y / 2); // the lower part has the message
+    const glm::ivec2 size = viewer.waitForWhole(0), upper(size.x, size.y / 2); // the message covers the lower part
     std::size_t mark = viewer.mark();
     viewer.click(middlePixel());
     EXPECT_EQ(viewer.waitFor("picked ", mark), "picked paint");

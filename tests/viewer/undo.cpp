@@ -1,4 +1,4 @@
-// Edits and jumps of the camera undone and redone by keys, and reverted.
+// Undo, redo and revert of edits, and of camera jumps, by keys.
 #include <vector>
 
 #include "tests/viewer/ViewerTest.h"
@@ -14,7 +14,7 @@ protected:
     static Shot redone(const DrivenViewer& viewer) {
         return after(viewer, [&] { viewer.key("ctrl+shift+z"); });
     }
-    /// Without a question, since nothing is edited.
+    /// Quits without a question, since nothing is edited.
     static void expectQuits(DrivenViewer& viewer) {
         viewer.key("ctrl+q");
         EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
@@ -26,12 +26,12 @@ TEST_F(ViewerUndo, anEditOfAMaterialIsUndoneRedoneAndReverted) {
     DrivenViewer viewer = open(kSpheres);
     const Shot before = pictureIn(viewer, viewer.waitForWhole(0));
     pickSphere(viewer, before.sizePixels);
-    constexpr int kMetallic = 4; // its row
+    constexpr int kMetallic = 4; // row of the slider
     const glm::ivec2 slider = inRow(viewer, Section::Materials, kMetallic, 200);
     const std::size_t mark = viewer.mark();
     viewer.drag(slider, {kPanelPixels - 2, slider.y});
     viewer.waitForWhole(mark);
-    toggle(viewer, Section::Materials); // takes the outline away
+    toggle(viewer, Section::Materials); // removes the outline
     const Shot metal = pictureIn(viewer, before.sizePixels);
     EXPECT_GT(differingShare(metal, before, 4), 0.005) << "nothing became metal";
     EXPECT_TRUE(undone(viewer) == before) << "the drag is one step";
@@ -51,7 +51,7 @@ TEST_F(ViewerUndo, lightsThatAScatteringReplacedComeBack) {
     DrivenViewer viewer = open(kSpheres);
     const Shot lit = pictureIn(viewer, viewer.waitForWhole(0));
     toggle(viewer, Section::Lights);
-    // The button stands between the last two labels, in a row without one.
+    // The button is between the last two labels, in a row without one.
     const std::vector<int> lines = linesOf(viewer, Section::Lights);
     ASSERT_GE(lines.size(), 2u);
     const glm::ivec2 replace(200, (lines.end()[-2] + lines.back()) / 2);

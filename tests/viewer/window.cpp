@@ -31,7 +31,7 @@ TEST_F(ViewerWindow, anySizeDownToOnePixelSurvivesAndComesBackWhole) {
 }
 
 TEST_F(ViewerWindow, closingDuringALoadIsClean) {
-    const tessera::test::AssetsFolder none(nullptr); // the scan is read before the window can be closed
+    const tessera::test::AssetsFolder none(nullptr); // a scan would be read before the window can be closed
     DrivenViewer viewer = open({"head"});
     viewer.close();
     EXPECT_EQ(viewer.wait(), 0) << viewer.errors();
@@ -120,7 +120,7 @@ TEST_F(ViewerWindow, theReasonOfAFailedLoadIsShown) {
     const std::string said = viewer.waitFor("error ", 0);
     EXPECT_NE(said.find("broken.json"), std::string::npos) << said;
     viewer.pause(1.0);
-    // The reason stands in the window, and the viewer goes on.
+    // The window shows the reason, and the viewer continues.
     const auto lowerPart = [&] {
         return viewer.capture().part({kPanelPixels, screenPixels().y - 200}, {screenPixels().x - kPanelPixels, 170});
     };

@@ -9,7 +9,7 @@
 
 using namespace tessera;
 
-/// Loads a built-in scene with the installed library and renders it small, as a program of somebody else would.
+/// Loads a built-in scene with the installed library and renders a small image, like a program outside the project.
 int main() try {
     const scenes::Scene scene = scenes::loadScene("lattice", {.lights = 4});
     const std::unique_ptr<gpu::Context> context = gpu::Context::create();

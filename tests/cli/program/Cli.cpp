@@ -24,7 +24,7 @@ ProcessResult Cli::run(const Words& arguments, const Environment& environment) c
     Words command{kProgram};
     command.insert(command.end(), arguments.begin(), arguments.end());
     ProcessResult result = runProcess(command, {folder_.path(), environment, 60.0});
-    // Which test is the first to use a map is chance, but where it has a cache of its own.
+    // Any test may be the first to filter a map, so the note is removed, except where a test has a separate cache.
     if (const std::size_t note = result.err.find(kFilteringNote);
         note != std::string::npos && !environment.contains("XDG_CACHE_HOME"))
         result.err.erase(note, kFilteringNote.size());
@@ -42,16 +42,16 @@ std::string Cli::runGood(const Words& arguments, const Environment& environment)
 int Cli::killedUntilItEnds(const Words& arguments) const {
     Words command{kProgram};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    const int stepMilliseconds = isWholeSweep() ? 131 : 431; // which no period divides
+    const int stepMilliseconds = isWholeSweep() ? 131 : 431; // primes, which no period divides
     int kills = 0;
     for (int attempt = 0; attempt < 40; ++attempt) {
         Process process(command, {folder_.path(), {}, 60.0});
         std::thread killer([&process, attempt, stepMilliseconds] {
-            // From before the first picture on.
+            // Starts before the first image.
             std::this_thread::sleep_for(std::chrono::milliseconds(200 + stepMilliseconds * attempt));
             try {
                 process.send(SIGKILL);
-            } catch (const std::runtime_error&) { // it had ended
+            } catch (const std::runtime_error&) { // it has ended
             }
         });
         const ProcessResult result = process.wait();

@@ -18,27 +18,27 @@ using Words = std::vector<std::string>;
 /// Exit codes of the program.
 inline constexpr int kGood = 0, kBadInput = 2, kToleranceMissed = 3;
 
-/// Runs the program in a folder of the test's own.
+/// Runs the program in a temporary folder.
 class Cli : public testing::Test {
 protected:
     using Environment = std::map<std::string, std::string>;
-    /// Neither a driver for EGL nor a display.
+    /// An environment without an EGL driver and without a display.
     static inline const Environment kNoGraphics{
         {"__EGL_VENDOR_LIBRARY_FILENAMES", "/nonexistent"}, {"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}};
 
-    /// What is said on stderr before a map is filtered.
+    /// Printed on stderr before a map is filtered.
     static inline const std::string kFilteringNote =
         "tessera: note: filtering the environment, once for each map: that takes seconds\n";
 
-    /// Without kFilteringNote, unless the environment has an XDG_CACHE_HOME.
+    /// Runs the program. Removes kFilteringNote from stderr, unless `environment` sets XDG_CACHE_HOME.
     ProcessResult run(const Words& arguments, const Environment& environment = {}) const;
-    /// Expects exit code 0 and a silent stderr; returns stdout.
+    /// Expects exit code 0 and an empty stderr; returns stdout.
     std::string runGood(const Words& arguments, const Environment& environment = {}) const;
-    /// Runs the program, kills it somewhere and runs it again, until it ends by itself; after times that grow by a
-    /// step, which is longer outside of a whole sweep (Sweep.h). Returns how often it was killed.
+    /// Runs the program, kills it after a delay and runs it again, until it ends by itself. The delay grows by a step,
+    /// which is longer outside of a whole sweep (Sweep.h). Returns the number of kills.
     int killedUntilItEnds(const Words& arguments) const;
     /// Expects the exit code, nothing on stdout, exactly one line on stderr that begins with "tessera: error: " and
-    /// holds all of `parts`, and every file of the folder as it was.
+    /// contains all of `parts`, and unchanged files in the folder.
     void expectError(int exitCode, const Words& arguments, const Words& parts,
                      const Environment& environment = {}) const;
 
@@ -46,16 +46,16 @@ protected:
     std::string text(const std::string& name) const;
     nlohmann::json json(const std::string& name) const { return nlohmann::json::parse(text(name)); }
     Picture picture(const std::string& name) const;
-    std::map<std::string, std::string> files() const; ///< contents by name, folders and devices without
+    std::map<std::string, std::string> files() const; ///< contents by name; empty for folders and devices
 
-    /// "quad.json": a square that fills the picture, turned a little from the camera, in the material given as JSON
-    /// ("name": "paint"), with the JSON list of lights.
+    /// Writes "quad.json": a square that fills the image, turned a little from the camera, with the material given as
+    /// JSON ("name": "paint") and the JSON list of lights.
     void writeQuad(const std::string& material, const std::string& lights) const;
 
     TempFolder folder_;
 };
 
-/// Programs of another kind, in the same folder: the shell.
+/// Runs a shell script in the folder.
 ProcessResult runShell(const std::string& script, const std::filesystem::path& folder);
 
 inline constexpr const char* kProgram = TESSERA_PROGRAM;

@@ -6,7 +6,7 @@
 
 #include "tests/cli/program/Cli.h"
 
-/// What a text of --help names.
+/// Names in a text of --help.
 namespace tessera::test {
 
 inline Words linesOf(const std::string& text) {
@@ -16,7 +16,7 @@ inline Words linesOf(const std::string& text) {
     return lines;
 }
 
-/// The first group of the pattern in every line.
+/// The first capture group of the pattern in every line.
 inline Words firstWords(const std::string& text, const std::regex& pattern) {
     Words words;
     for (const std::string& line : linesOf(text))
@@ -24,7 +24,7 @@ inline Words firstWords(const std::string& text, const std::regex& pattern) {
     return words;
 }
 
-/// The names of the options, each of "-o, --output FILE" for itself.
+/// The names of the options; "-o, --output FILE" gives both of its names.
 inline Words optionsIn(const std::string& help) {
     Words names;
     for (const std::string& option : firstWords(help, std::regex("^  (-[-a-z]+(?:, -[-a-z]+)*)(?: |$)"))) {

@@ -7,7 +7,7 @@ class BadOptions : public Cli {
 protected:
     void SetUp() override { folder_.write("a.png", "an older picture"); }
 
-    /// `render room -o a.png` with more.
+    /// Expects `render room -o a.png` with further arguments to be refused.
     void expectRefused(const Words& more, const Words& parts) const {
         Words arguments{"render", "room", "-o", "a.png"};
         arguments.insert(arguments.end(), more.begin(), more.end());
@@ -267,7 +267,7 @@ TEST_F(BadOptions, anErrorThatCannotBePrintedKeepsItsExitCode) {
         const ProcessResult result = runShell(std::string(kProgram) + " plan nix.obj " + closed, folder_.path());
         EXPECT_EQ(result.exitCode, kBadInput) << closed;
     }
-    // A closed stream's number never goes to a file, in which messages would end.
+    // A closed stream's descriptor is never reused for a file, in which messages would end.
     folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 1 2\nf 1 2 3\n");
     ASSERT_EQ(runShell(std::string(kProgram) + " plan m.obj --json p.json 2>&-", folder_.path()).exitCode, 0);
     EXPECT_EQ(json("p.json").at("scene"), "m");

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 class Bench : public Cli {
 protected:
-    /// Against the reference, or against forward too.
+    /// Against the reference, and in a whole sweep against forward too.
     void expectShadowFiltersMeasured();
 };
 using BenchSlow = Bench;
@@ -31,11 +31,11 @@ TEST_F(Bench, everyPointIsMeasuredCountedAndComparedWithTheLowerBound) {
     EXPECT_EQ(record["complete"], true);
     EXPECT_FALSE(record["machine"].get<std::string>().empty());
     EXPECT_FALSE(record["commit"].get<std::string>().empty());
-    // forward, and for both others none and one method with two tiles; without lights nothing is culled, and each
-    // technique is one frame.
+    // With lights: forward once, the others without culling and with one method at two tile sizes. Without lights
+    // nothing is culled, and each technique has one frame.
     ASSERT_EQ(record["points"].size(), 3u + (1u + 3u + 3u));
     EXPECT_THAT(said, HasSubstr("it is the same frame as tiled_deferred, exact"));
-    // Two frames of a machine that does something else, too, tell nothing.
+    // Two frames on a machine that is busy elsewhere may be too noisy for a recommendation.
     EXPECT_THAT(record["recommendation"].get<std::string>(),
                 AnyOf(HasSubstr("with 40 lights at 96x54 take "), HasSubstr("The machine was too busy to tell")));
     EXPECT_THAT(text("out/of/bench/bench.csv"), HasSubstr("\r\nlattice,clustered_deferred,cluster,32,"));
@@ -56,14 +56,14 @@ TEST_F(Bench, everyPointIsMeasuredCountedAndComparedWithTheLowerBound) {
         }
         EXPECT_GT(point["counters"]["lightEvaluations"], point["counters"]["neededEvaluations"]);
         EXPECT_GT(point["floorMs"], 0.0);
-        // Surfaces turn their backs to some of the lights that reach them, so the lower bound of lit pairs is less.
+        // Some lights in range are behind the surfaces, so the lower bound of lit pairs is less.
         EXPECT_GT(point["counters"]["neededLitEvaluations"], 0);
         EXPECT_LT(point["counters"]["neededLitEvaluations"], point["counters"]["neededEvaluations"]);
         EXPECT_GT(point["floorLitMs"], 0.0);
         EXPECT_LT(point["floorLitMs"], point["floorMs"]);
         EXPECT_GT(point["ratioToLitFloor"], point["ratioToFloor"]);
         EXPECT_GE(point["counters"]["tightness"], 1.0);
-        // What fp32 and an exact layout are held to against the reference where there are no textures.
+        // Tolerance of fp32 and an exact layout against the reference in scenes without textures.
         EXPECT_EQ(point["against"], "reference");
         EXPECT_LE(point["error"]["relMse"], 1e-8);
         EXPECT_LE(std::abs(point["error"]["bias"].get<double>()), 1e-4);
@@ -76,7 +76,7 @@ TEST_F(Bench, everyCauseOfErrorIsReported) {
     runGood({"bench", "room", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "--against", "forward", "-o",
              "out"});
     const Json record = json("out/bench.json");
-    ASSERT_EQ(record["points"].size(), 2u); // room has no light that a range tolerance ends
+    ASSERT_EQ(record["points"].size(), 2u); // a range tolerance affects no light of this scene
     EXPECT_EQ(record["points"][0]["error"]["relMse"], 0.0);
     EXPECT_GT(record["points"][1]["error"]["relMse"], 1e-9);
     EXPECT_EQ(record["points"][0]["against"], "forward");
@@ -115,7 +115,7 @@ void Bench::expectShadowFiltersMeasured() {
         for (const Json& line : record["attribution"])
             if (line["cause"] == "shadow") causes[line["what"]] = line["relMse"];
         ASSERT_EQ(causes.size(), 2u) << "traced shadows of lights without a size are exact";
-        // The error of a filter is all that hard has beside rounding.
+        // Beside rounding, the error of hard shadows is that of their filter.
         EXPECT_NEAR(causes["shadow filter hard"] / hard, 1.0, 0.1);
         EXPECT_NEAR(causes["no shadows"] / none, 1.0, 0.1);
     }
@@ -145,7 +145,7 @@ TEST_F(Bench, methodsOfSubsurfaceScatteringAreMeasuredAgainstTheSurfaceIntegral)
     EXPECT_EQ(record["points"][1]["diffusionHalf"], false);
     EXPECT_EQ(record["points"][2]["diffusionTexels"], 256);
     EXPECT_GT(relMse(0), 5.0 * relMse(2));
-    std::set<std::string> passes; // spread anew in each frame, else the second one would have none of them
+    std::set<std::string> passes; // diffused again in each frame, else the second frame would lack these passes
     for (const Json& pass : record["points"][2]["passes"]) passes.insert(pass["name"]);
     EXPECT_THAT(passes, testing::Contains("diffusion_light"));
     std::map<std::string, double> causes;
@@ -167,7 +167,7 @@ TEST_F(Bench, waysToFindTheEnvironmentsLightAreMeasuredAgainstTheIntegral) {
         const std::string samples = point["environmentSamples"].is_null() ? "" : point["environmentSamples"].dump();
         relMse[point["environmentLight"].get<std::string>() + samples] = point["error"]["relMse"];
     }
-    // Four samples have noise; 64 times as many a 64th of its square, beside that of the reference.
+    // Four samples are noisy. 64 times as many have a 64th of the squared noise, beside that of the reference.
     EXPECT_GT(relMse["sampled4"], 10.0 * relMse["sampled256"]);
     EXPECT_GT(relMse["off"], 2.0 * relMse["split_sum"]);
     std::map<std::string, double> causes;
@@ -183,7 +183,7 @@ TEST_F(Bench, theNoiseOfSoftShadowsIsAnError) {
     const Json record = json("out/bench.json");
     ASSERT_EQ(record["points"].size(), 2u);
     EXPECT_EQ(record["points"][0]["shadowSamples"], 1);
-    // The error of a share is 30 times as large (docs/shadows.md).
+    // The error of a visible fraction is 30 times as large with one sample (docs/shadows.md).
     EXPECT_GT(record["points"][0]["error"]["relMse"], 100.0 * record["points"][1]["error"]["relMse"].get<double>());
     EXPECT_THAT(record["attribution"].dump(), HasSubstr("shadow filter traced, samples 1"));
 }

@@ -1,4 +1,4 @@
-// The page of a benchmark in a real browser.
+// The report of a benchmark in a real browser.
 #include <regex>
 
 #include "tests/cli/program/Cli.h"
@@ -9,8 +9,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-/// Writes into the page's title the facts that only a browser knows: painted pixels of each plot, sliders, and whether
-/// the page is wider than its window.
+/// Writes facts that only a browser has into the page's title: painted pixels of each plot, the number of sliders,
+/// and the page's pixels beyond the window's width.
 constexpr const char* kProbe = R"(<script>
 addEventListener("load", () => {
     const painted = (id) => {
@@ -40,7 +40,7 @@ protected:
         if (runShell("command -v chromium", folder_.path()).exitCode != 0) GTEST_SKIP() << "chromium is not installed";
     }
 
-    /// What the browser makes of a page; the console's lines come on stderr.
+    /// Loads a page and returns its DOM; messages of the console are on stderr.
     ProcessResult browse(const std::string& file, const std::string& size) const {
         return runShell("exec chromium --headless=new --no-sandbox --disable-gpu --user-data-dir=profile "
                         "--enable-logging=stderr --window-size=" +
@@ -70,13 +70,13 @@ TEST_F(BenchPage, everyPlotShowsItsPointsInABrowserWithoutAComplaint) {
         EXPECT_EQ(group(seen.out, "id=\"scaling-plot\"[^>]*data-points=\"([0-9]+)\""), "9");
         const std::string probe = "<title>probe ([0-9]+) ([0-9]+) ([0-9]+) ([0-9]+)</title>";
         ASSERT_NE(group(seen.out, probe), "") << "the probe did not run";
-        // Axes, marks and names: far more than a frame around nothing.
+        // Axes, marks and names: far more than an empty frame.
         EXPECT_GT(std::stoi(group(seen.out, probe, 1)), 3000);
         EXPECT_GT(std::stoi(group(seen.out, probe, 2)), 3000);
         EXPECT_EQ(group(seen.out, probe, 3), "1") << "sliders";
         EXPECT_EQ(group(seen.out, probe, 4), "0") << "pixels beyond the window";
         EXPECT_EQ(group(seen.out, "data-ticks=\"([^\"]*)\""), "4 17 1,025");
-        // A name of every curve, below the plot and above what follows; a click hides its curve.
+        // The legend names every curve, below the plot and above the next section; a click hides its curve.
         EXPECT_EQ(group(seen.out, "data-legend=\"([^\"]*)\""), "3 true false false true");
         const std::string slope = "exact \\((no trend|-?[0-9]\\.[0-9]{2})\\)";
         EXPECT_NE(group(seen.out, "data-curves=\"(forward, " + slope + "; deferred, " + slope + ")"), "");

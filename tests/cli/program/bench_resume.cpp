@@ -27,11 +27,11 @@ protected:
     }
 
     static Words command(const std::string& out, const Words& more = {}) { return commandOf("m.json", out, more); }
-    /// Ten points, or outside of a whole sweep six: in two parts of the run, which two shards measure.
+    /// Ten points in a whole sweep, else six: in two groups of the run, which two shards measure.
     static Words sharedCommand(const std::string& out, const Words& more = {}) {
         return commandOf(isWholeSweep() ? "m.json" : "fewer.json", out, more);
     }
-    /// Two points, for what is refused whatever was measured.
+    /// Two points, for commands that are refused whatever was measured.
     static Words shortCommand(const std::string& out, const Words& more = {}) {
         return commandOf("few.json", out, more);
     }
@@ -50,7 +50,7 @@ protected:
         return record;
     }
 
-    /// Killed after times that grow by a step, which is longer outside of a whole sweep.
+    /// Kills the run after delays that grow by a step, which is longer outside of a whole sweep.
     void expectKillsLeaveNoTrace() const;
     void expectShardsMerge() const;
 
@@ -73,11 +73,11 @@ void BenchRuns::expectKillsLeaveNoTrace() const {
         for (const std::string& word : command("killed", {"--resume"})) words.push_back(word);
         Process process(words, {folder_.path(), {}, 60.0});
         std::thread killer([&process, attempt, stepMilliseconds] {
-            // From a quarter of a second, before anything is measured, to whole runs.
+            // From a quarter of a second, before anything is measured, up to whole runs.
             std::this_thread::sleep_for(std::chrono::milliseconds(250 + stepMilliseconds * attempt));
             try {
                 process.send(SIGKILL);
-            } catch (const std::runtime_error&) { // it had ended
+            } catch (const std::runtime_error&) { // it has ended
             }
         });
         const ProcessResult result = process.wait();
@@ -89,7 +89,7 @@ void BenchRuns::expectKillsLeaveNoTrace() const {
     ASSERT_TRUE(isDone);
     EXPECT_GT(kills, 0);
     EXPECT_EQ(withoutTimes("killed/bench.json"), withoutTimes("whole/bench.json"));
-    // What is finished is not measured again: the times stay.
+    // Finished points are not measured again: the times stay.
     const std::string before = text("killed/bench.json");
     runGood(command("killed", {"--resume"}));
     EXPECT_EQ(text("killed/bench.json"), before);
@@ -152,7 +152,7 @@ TEST_F(BenchRuns, runsOfTwoMachinesMergeIntoAPageWithAColumnEach) {
     EXPECT_EQ(text("both/machines/1/bench.csv"), text("mine/bench.csv"));
     EXPECT_EQ(json("both/machines/2/bench.json")["machine"], "64 x Chip <of theirs>");
     EXPECT_THAT(text("both/report.html"), HasSubstr("64 x Chip &lt;of theirs&gt;"));
-    // Again, over what is there.
+    // Again, over the existing files.
     runGood({"bench", "--merge", "mine", "theirs", "-o", "both"});
     expectError(2, {"bench", "--merge", "mine", "theirs", "-o", "mine"}, {"mine holds a bench", "another folder"});
     expectError(2, {"bench", "--merge", "both/machines/1", "both/machines/2", "-o", "both"}, {"would be written over"});
@@ -182,7 +182,7 @@ TEST_F(BenchRuns, aSceneThatIsEditedBetweenTwoPartsOfARunIsRefused) {
     EXPECT_THAT(text("killed/report.html"), HasSubstr("Unfinished: 2 of 4 points are measured"));
 
     paint("[1, 1, 0.5]");
-    std::filesystem::remove(folder_.path() / "killed/bench.lock"); // a killed process leaves it; it holds nothing
+    std::filesystem::remove(folder_.path() / "killed/bench.lock"); // a killed process leaves the file unlocked
     expectError(2, bench("killed", {"--resume"}), {"the scene quad.json changed", "name another folder"});
     runGood(bench("two", {"--shard", "2/2"}));
     expectError(2, {"bench", "--merge", "one", "two", "-o", "all"}, {"the scene quad.json changed", "every shard"});

@@ -6,10 +6,10 @@
 namespace tessera::test {
 namespace {
 
-/// Cameras that the command line places.
+/// Cameras placed by the command line.
 class CameraOptions : public Cli {
 protected:
-    /// The picture of the scene `spheres` by the words.
+    /// The image of a scene rendered with further arguments.
     std::string rendered(const Words& more, const char* scene = "spheres") {
         const std::string name = fmt::format("{}.exr", ++made_);
         Words words{"render", scene, "--size", "48x27", "-o", name};

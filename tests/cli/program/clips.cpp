@@ -9,8 +9,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A white unlit triangle before black. The clip `slide` moves it from the left to the right within a second, `shrink`
-/// halves it, both seen by a camera that stands still.
+/// A white unlit triangle on black. The clip `slide` moves it from the left to the right within a second, `shrink`
+/// halves its size; the camera is static.
 class PlayedClips : public Cli {
 protected:
     void SetUp() override {
@@ -41,7 +41,7 @@ protected:
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
-    /// White pixels left and right of the middle.
+    /// Numbers of white pixels left and right of the centre.
     std::array<int, 2> sides(const std::string& name) const {
         const Picture shown = picture(name);
         std::array<int, 2> count{};

@@ -43,7 +43,7 @@ TEST_F(Compare, theJsonHasExactlyTheDocumentedFields) {
     EXPECT_EQ(record["scene"], "lattice");
     EXPECT_EQ(record["size"], Json::parse("[160, 90]"));
     EXPECT_FALSE(record["renderer"].get<std::string>().empty());
-    // `missed` and `why` explain verdicts and nulls; `channels` is there where a channel is packed.
+    // `missed` and `why` explain verdicts and nulls; `channels` exists only if a channel is packed.
     const std::set<std::string> fields{
         "a",      "b",        "maxAbs",   "maxRel",   "rmse",       "relMse",        "p50Rel",
         "p99Rel", "p999Rel",  "bias",     "bitEqual", "flip",       "psnr",          "nan",
@@ -201,7 +201,7 @@ TEST_F(Compare, shadowsOfMapsAreNotJudgedByTheReferenceAndThatIsSaid) {
     const Json pair = json("c.json")["pairs"][0];
     EXPECT_TRUE(pair["ok"].is_null()) << "what is not judged is not ok";
     EXPECT_THAT(pair["why"]["ok"].get<std::string>(), testing::HasSubstr("not judged: shadow maps"));
-    // Lost ones are warned of.
+    // Warns of lights that lose their shadows.
     Words few = words;
     few.insert(few.end(), {"--shadow-budget", "0.001"});
     EXPECT_THAT(run(few).err, testing::HasSubstr("cast no shadows; give more --shadow-budget"));
@@ -231,7 +231,7 @@ TEST_F(Compare, aBlackPictureNeverPasses) {
     EXPECT_THAT(result.out, testing::HasSubstr("no signal"));
 }
 
-/// Directions have negative components, radiance may not.
+/// Directions may have negative components, radiance may not.
 TEST_F(Compare, aViewOfDirectionsNeverMissesForItsSigns) {
     for (const char* view : {"normal", "normal_view", "normal_object", "depth"}) {
         SCOPED_TRACE(view);
@@ -239,14 +239,14 @@ TEST_F(Compare, aViewOfDirectionsNeverMissesForItsSigns) {
     }
 }
 
-/// Shaders with one fault in deferred only, which compare must find.
+/// Shaders with a fault, which compare must detect.
 class Sabotage : public Cli {
 protected:
     void SetUp() override {
         fs::copy(fs::path(TESSERA_SOURCE_DIR) / "shaders", folder_.path() / "shaders", fs::copy_options::recursive);
     }
 
-    /// Replaces every `from` in a shader; the test fails when there is none.
+    /// Replaces every `from` in a shader; the test fails if there is none.
     void replace(const std::string& file, const std::string& from, const std::string& to) const {
         std::string source = text("shaders/" + file);
         std::size_t place = source.find(from);
@@ -279,14 +279,14 @@ TEST_F(Sabotage, swappedChannelsMissTheTolerance) {
     replace("lib/gbuffer/gbuffer_channels.glsl", "surface.albedo = texel.rgb;", "surface.albedo = texel.bgr;");
     replace("lib/gbuffer/gbuffer_channels.glsl", "surface.albedo = takeRoots(encoding.widths);",
             "surface.albedo = takeRoots(encoding.widths).bgr;");
-    // Of lattice no material varies, so on exact its pixels hold their numbers.
+    // No material of lattice varies, so with the exact layout its pixels store material indices.
     replace("lib/material/material_table.glsl", "material.baseColor = tabledConstants(number, 0);",
             "material.baseColor = tabledConstants(number, 0).bgra;");
     expectExitCode(kToleranceMissed);
 }
 
 TEST_F(Sabotage, oneSkippedLightMissesTheTolerance) {
-    // GBUFFER_NORMAL without GBUFFER_WRITE: the pass that reads the G-buffer.
+    // GBUFFER_NORMAL without GBUFFER_WRITE selects the pass that reads the G-buffer.
     replace(
         "lib/light/light_cursor.glsl", "    return LightCursor(0, int(lighting.lights.x));",
         "#if !defined(GBUFFER_WRITE) && defined(GBUFFER_NORMAL)\n    return LightCursor(1, int(lighting.lights.x));\n"
@@ -303,8 +303,8 @@ TEST_F(Sabotage, aFaultThatAllTechniquesShareMissesTheReference) {
     EXPECT_EQ(result.exitCode, kToleranceMissed) << result.out;
 }
 
-/// `models` shows every model and layer, none of them large, so a fault of one changes few pixels. Every fourth fault,
-/// or all.
+/// Expects every fourth fault to be detected, in a whole sweep all. `models` shows every model and layer, none of them
+/// large, so a fault in one changes few pixels.
 void Sabotage::expectFaultsOfLobesMiss() {
     struct Fault {
         const char* file;
@@ -343,7 +343,7 @@ TEST_F(SabotageSlow, aFaultOfOneLobeMissesTheReference) {
     expectFaultsOfLobesMiss();
 }
 
-/// All techniques lack it alike, and it fills few pixels.
+/// The instance is missing in all techniques alike, and covers few pixels.
 TEST_F(Sabotage, aDroppedInstanceMissesTheReferenceAndIsNamed) {
     replace("passes/geometry.vert", "gl_Position = clip;",
             "gl_Position = drawNormal2.w == 13.0 ? vec4(2.0, 2.0, 2.0, 1.0) : clip;");
@@ -362,7 +362,7 @@ TEST_F(Sabotage, aDroppedInstanceMissesTheReferenceAndIsNamed) {
     for (const Json& pair : record["pairs"]) EXPECT_EQ(pair["ok"], false);
 }
 
-/// Bit-equal pictures of models that fill less than a tenth of the frame.
+/// Bit-equal images of models that cover less than a tenth of the frame.
 TEST_F(Compare, aSmallModelHoldsAgainstItself) {
     std::vector<fs::path> models{ownModelsFolder() / "morphing_box.gltf"};
     for (const char* name :
@@ -371,7 +371,7 @@ TEST_F(Compare, aSmallModelHoldsAgainstItself) {
     for (const fs::path& model : models) {
         const ProcessResult result = run({"compare", model.string(), "--size", "96x54", "--fov", "120", "--backdrop",
                                           "off", "--techniques", "deferred", "--json", "c.json"});
-        EXPECT_EQ(result.exitCode, kGood) << result.out << result.err; // which warns of missing lights and cameras
+        EXPECT_EQ(result.exitCode, kGood) << result.out << result.err; // stderr warns of missing lights and cameras
         const Json pair = json("c.json")["pairs"][0];
         EXPECT_LT(pair["litShare"], 0.1) << model;
         EXPECT_GT(pair["litCovered"], 0.1) << model;

@@ -1,4 +1,4 @@
-// The scripts by which shells complete command lines.
+// The scripts that complete command lines in shells.
 #include <regex>
 #include <set>
 #include <sstream>
@@ -25,7 +25,7 @@ using testing::StartsWith;
 
 class Completion : public Cli {
 protected:
-    /// What bash offers behind these words, the last of which is being typed.
+    /// Completions that bash offers for these words, the last of which is being typed.
     Words offered(const Words& line) const {
         std::string words;
         for (const std::string& word : line) words += fmt::format(" '{}'", word);
@@ -64,7 +64,7 @@ TEST_F(Completion, bashOffersTheNamesThatASettingTakes) {
         const Words words = offered({"render", "hall", std::string(setting.flag), ""});
         for (const engine::ChoiceKind::Entry& entry : choice->entries)
             EXPECT_THAT(words, Contains(entry.name)) << setting.flag;
-        // A shell would take other signs for its own.
+        // A shell would interpret other characters.
         for (const std::string& word : words)
             EXPECT_TRUE(std::regex_match(word, std::regex("[A-Za-z0-9_./-]+"))) << word;
         ++named;
@@ -80,17 +80,17 @@ TEST_F(Completion, bashOffersTheNamesThatASettingTakes) {
 }
 
 TEST_F(Completion, bashTakesWordsAsTheProgramDoes) {
-    // What an option of the program takes is no command.
+    // The value of a program option is not a command.
     EXPECT_THAT(offered({"--context", "egl", "sc"}), ElementsAre("scenes"));
     EXPECT_THAT(offered({"--context", "=", "egl", "sc"}), ElementsAre("scenes"));
     EXPECT_THAT(offered({"render", "hall", "--technique", "=", "forward_"}),
                 ElementsAre("forward_prepass", "forward_plus"));
     EXPECT_THAT(offered({"render", "hall", "--technique", "="}), Contains("deferred"));
-    // Several in one word.
+    // Several names in one word.
     EXPECT_THAT(offered({"compare", "hall", "--techniques", "forward,tiled"}), ElementsAre("forward,tiled_deferred"));
     for (const char* name : {"--techniques", "--technique"})
         EXPECT_THAT(offered({"stress", name, "forward,tiled"}), ElementsAre("forward,tiled_deferred"));
-    // A value is no option, even where it begins like one.
+    // A value is not an option, even if it begins like one.
     EXPECT_THAT(offered({"render", "hall", "--exposure", "-"}), IsEmpty());
     EXPECT_THAT(offered({"scenes", ""}), IsEmpty());
 }

@@ -20,7 +20,7 @@ TEST_F(Demo, theReportAndItsPicturesAreWrittenWhereItSays) {
     EXPECT_THAT(page.substr(0, 200), HasSubstr("<!DOCTYPE html>"));
     EXPECT_THAT(page, HasSubstr("tessera compare lattice"));
     EXPECT_THAT(page, HasSubstr("Error against run time"));
-    // forward and forward_plus, and the two deferred ones in two layouts.
+    // forward and forward_plus once, and both deferred techniques in two layouts.
     EXPECT_EQ(json("out/report/bench/bench.json")["points"].size(), 6u);
     for (const char* name :
          {"forward", "tiled_deferred", "forward_plus", "clustered_deferred", "tiled_deferred_packed"})

@@ -21,7 +21,7 @@ protected:
         std::istringstream lines(text);
         int blank = 0;
         for (std::string line; std::getline(lines, line);) {
-            EXPECT_LE(line.size(), 100u) << line; // the width of two windows beside each other
+            EXPECT_LE(line.size(), 100u) << line; // the width of two windows side by side
             blank = line.empty() ? blank + 1 : 0;
             EXPECT_LE(blank, 1) << "two blank lines in a row";
         }
@@ -43,7 +43,7 @@ TEST_F(Help, everyCommandExplainsItselfWithExamples) {
               "--quiet",           "--context KIND",     "--clip NAME",        "--hook NAME=VALUE",
               "--variant NAME",    "--light-units NAME", "--obj-colours NAME", "--strict"})
             EXPECT_THAT(text, HasSubstr(option));
-        // The demonstration shows several.
+        // The demonstration shows several techniques.
         EXPECT_EQ(text.find("--technique NAME") == std::string::npos, std::string_view(command) == "demo");
     }
     EXPECT_THAT(runGood({"render", "-h"}), HasSubstr("Usage: tessera render SCENE -o FILE [options]"));
@@ -55,7 +55,7 @@ TEST_F(Help, everyOptionWithARangeTellsIt) {
     text.resize(std::size_t(
         std::unique(text.begin(), text.end(), [](char a, char b) { return std::isspace(a) && std::isspace(b); }) -
         text.begin()));
-    std::ranges::replace(text, '\n', ' '); // lines are broken anywhere
+    std::ranges::replace(text, '\n', ' '); // lines may break anywhere
     int told = 0;
     for (const engine::Setting& setting : engine::settingTable()) {
         if (setting.range().empty()) continue;

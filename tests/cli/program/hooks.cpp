@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A black square that shows what its hook makes of its parameters.
+/// A black square whose hook emits its parameters as colour.
 class HookedSquare : public Cli {
 protected:
     void SetUp() override {
@@ -61,7 +61,7 @@ TEST_F(HookedSquare, faultsThatTheDriverFindsNameTheHookAndWhatToDo) {
     folder_.write("shine.glsl", signature + "\n{\n    surface.emission = undeclaredName;\n}\n");
     expectError(kBadInput, command({}), {refused, "/shine.glsl:3: "});
     EXPECT_THAT(run(command({})).err, testing::Not(testing::HasSubstr("warning")));
-    // What follows is found where a program is linked, without a file.
+    // The driver finds these faults when it links a program, and names no file.
     for (const std::string& nothing :
          Words{"#if 0\n" + signature + " {}\n#endif\n", signature + ";\n", "void hookSurface(int a) {}\n"}) {
         folder_.write("shine.glsl", nothing);
@@ -71,7 +71,7 @@ TEST_F(HookedSquare, faultsThatTheDriverFindsNameTheHookAndWhatToDo) {
     }
 }
 
-/// The driver gives neither a place in any file.
+/// The driver gives no position in a file for either.
 TEST_F(HookedSquare, recursionAndVariablesInAreTheHooksFault) {
     const std::string signature = "void hookSurface(inout HookedSurface surface, HookInputs inputs)";
     folder_.write("shine.glsl", "float twice(float x)\n{\n    return x > 9.0 ? x : twice(2.0 * x);\n}\n" + signature +

@@ -18,7 +18,7 @@ class Manual : public Cli {
 protected:
     void SetUp() override { page_ = runGood({"manual"}); }
 
-    /// The page's words, its escapes taken back.
+    /// The page's text with its escapes replaced.
     std::string plain() const {
         std::string text = page_;
         for (const auto& [escape, sign] : {std::pair<std::string, std::string>{"\\-", "-"},
@@ -34,7 +34,7 @@ protected:
                 text.replace(at, escape.size(), sign);
         return text;
     }
-    /// The names of the options of a section.
+    /// The names of the options in a section.
     static std::set<std::string> itemsOf(const std::string& section) {
         std::set<std::string> names;
         bool isItem = false;
@@ -45,7 +45,7 @@ protected:
         }
         return names;
     }
-    /// What stands below a heading of `kind`, "SH" or "SS", up to the next one.
+    /// The text below a heading of `kind`, "SH" or "SS", up to the next one.
     std::string section(const std::string& kind, const std::string& name) const {
         const std::string text = plain(), heading = "\n." + kind + " " + name + "\n";
         const std::size_t begin = text.find(heading);
@@ -87,7 +87,7 @@ TEST_F(Manual, whatSettingsSayStandsThereOnce) {
     const std::string text = plain();
     int told = 0;
     for (const engine::Setting& setting : engine::settingTable()) {
-        if (setting.key == "technique") continue; // commands say different things of it
+        if (setting.key == "technique") continue; // its help differs between commands
         const std::string item = fmt::format("\n.TP\n{} {}\n{}", setting.flag, setting.type, setting.help);
         const std::size_t at = text.find(item);
         EXPECT_NE(at, text.npos) << setting.flag;
@@ -106,7 +106,7 @@ TEST_F(Manual, troffFindsNothingToWarnOf) {
     EXPECT_THAT(result.out, HasSubstr("TESSERA(1)"));
     EXPECT_THAT(result.out, HasSubstr("\n       --layout NAME\n"));
     EXPECT_THAT(result.out, HasSubstr("tessera render hall -o hall.png  "));
-    // What man -k and apropos list.
+    // The line that man -k and apropos list.
     EXPECT_THAT(page_, HasSubstr("\n.SH NAME\ntessera \\- "));
 }
 

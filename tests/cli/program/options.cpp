@@ -16,7 +16,7 @@ constexpr const char* kGlossy =
 constexpr const char* kTwoLights = R"([{"type": "point", "position": [1, 0, 1], "intensity": 3},
                                        {"type": "point", "position": [-1, 0.5, 1], "intensity": 2}])";
 
-/// What each option of a frame does, on a square that two lights shine on.
+/// The effect of each frame option, on a square lit by two lights.
 class FrameOptions : public Cli {
 protected:
     void SetUp() override { writeQuad(kGlossy, kTwoLights); }
@@ -49,7 +49,7 @@ TEST_F(FrameOptions, exposureMultipliesTheDisplayPictureByTwoToItsPower) {
     const auto red = [&](const char* exposureEV) {
         return picture(rendered({"--exposure", exposureEV}, ".png")).pixel(0)[0];
     };
-    const float step = 0.005f; // one of 8-bit sRGB's steps near 1/2
+    const float step = 0.005f; // one step of 8-bit sRGB near 1/2
     EXPECT_NEAR(red("0"), 0.25f, step);
     EXPECT_NEAR(red("1"), 0.5f, step);
     EXPECT_NEAR(red("-1"), 0.125f, step);
@@ -57,7 +57,7 @@ TEST_F(FrameOptions, exposureMultipliesTheDisplayPictureByTwoToItsPower) {
     EXPECT_EQ(pictureOf({"--exposure", "1"}).pixel(0)[0], 0.25f) << "radiance is before exposure";
 }
 
-/// Falls to 0.5 at 4 m and 2 m from itself, of which the square is 1 m away.
+/// The lights fall to 0.5 at 4 m and at 2 m from themselves; the square is 1 m away.
 constexpr const char* kTwoAttenuated = R"([
     {"type": "point", "position": [1, 0, 1], "intensity": 8, "falloff": {"type": "attenuation", "C": 0.5, "A": 8}},
     {"type": "point", "position": [-1, 0.5, 1], "intensity": 2, "falloff": {"type": "attenuation", "C": 1}}])";
@@ -95,7 +95,7 @@ TEST_F(FrameOptions, aRangeToleranceDropsLightAndPlanAndCompareTellHowMuch) {
     EXPECT_GT(dropped["relMse"], 0.0);
     EXPECT_GT(dropped["p99Rel"], 0.0);
     const validation::ErrorFigures figures = validation::errorFigures(cut, whole);
-    // Those pictures are files, whose coverage is their alpha; forward and deferred are the same to the last bit.
+    // Those images are files, whose coverage is their alpha; forward and deferred agree to the last bit.
     EXPECT_DOUBLE_EQ(dropped["bias"].get<double>(), figures.bias);
     EXPECT_DOUBLE_EQ(dropped["relMse"].get<double>(), figures.relMse);
 
@@ -143,7 +143,7 @@ TEST_F(FrameOptions, everyTechniqueIsExactlyTheSameWithTheExactLayoutAndNearWith
 }
 
 TEST_F(FrameOptions, lightingInViewSpaceGivesThePictureOfWorldSpace) {
-    // Other roundings of the same lighting: fp32 against double is at 1e-10 already.
+    // Only rounding differs: fp32 against double is at 1e-10 already.
     EXPECT_LE(validation::errorFigures(pictureOf({"--space", "view"}), pictureOf({"--space", "world"})).relMse, 1e-9);
 }
 
@@ -151,7 +151,7 @@ TEST_F(FrameOptions, specularOffLeavesOnlyTheDiffuseLobe) {
     const double with = mean(pictureOf({})), without = mean(pictureOf({"--specular", "off"}));
     EXPECT_LT(without, 0.95 * with);
     EXPECT_GT(without, 0.0);
-    // A Lambert square has no lobe to lose.
+    // A Lambert square has no specular lobe.
     writeQuad(R"({"name": "paint", "model": "lambert"})", kTwoLights);
     EXPECT_TRUE(text(rendered({"--specular", "off"})) == text(rendered({"--specular", "on"})));
 }
@@ -162,7 +162,7 @@ TEST_F(FrameOptions, theLightsAloneAddUpToTheWhole) {
         for (std::size_t c = 0; c < 3; ++c) {
             const float sum = first.pixel(i)[c] + second.pixel(i)[c];
             ASSERT_GT(first.pixel(i)[c], 0.0f);
-            ASSERT_NEAR(sum, both.pixel(i)[c], 1e-6f * sum); // the rounding of a few additions
+            ASSERT_NEAR(sum, both.pixel(i)[c], 1e-6f * sum); // rounding of a few additions
         }
     }
 }
@@ -206,7 +206,7 @@ TEST_F(FrameOptions, filterExactInterpolatesInSinglePrecision) {
     writeQuad(R"({"name": "paint", "model": "single_color", "color": {"texture": "t.png"}})", "[]");
     const Picture exact = pictureOf({"--filter", "exact"}), hardware = pictureOf({"--filter", "hardware"});
     EXPECT_TRUE(hardware.rgba == pictureOf({}).rgba) << "hardware is the default";
-    // Hardware interpolates with 8-bit weights and texels: at most a few of 256 steps between black and white apart.
+    // Hardware interpolates with 8-bit weights and texels: a difference of a few of 256 steps between black and white.
     double largest = 0.0;
     for (std::size_t i = 0; i < exact.pixelCount(); ++i)
         largest = std::max(largest, std::abs(double(exact.pixel(i)[0]) - double(hardware.pixel(i)[0])));
@@ -224,16 +224,16 @@ TEST_F(FrameOptions, samplesSoftenEdgesAndOneChangesNothing) {
     const Picture one = pictureOf(lattice, "lattice"), four = latticeWith("4");
     EXPECT_TRUE(latticeWith("1").rgba == one.rgba);
     EXPECT_GT(validation::errorFigures(four, one).rmse, 0.0);
-    // Edges hold a mean of their neighbours. Of the 1296 pixels nearly all lie on one, each wrong by half its
-    // contrast of about 1 with one sample: 0.5 / sqrt(1296) is 1.4 %, and three times that is rare.
+    // Edge pixels average their neighbours. Nearly all of the 1296 pixels lie on an edge, and with one sample each is
+    // wrong by half its contrast of about 1: 0.5 / sqrt(1296) is 1.4 %, and three times that is rare.
     EXPECT_NEAR(mean(four), mean(one), 0.042 * mean(one));
-    // What is only touched by a surface is covered too.
+    // Pixels that a surface only touches are covered too.
     EXPECT_GT(std::count(four.covered.begin(), four.covered.end(), 1),
               std::count(one.covered.begin(), one.covered.end(), 1));
 }
 
 TEST_F(FrameOptions, cameraChoosesTheView) {
-    runGood({"render", "room", "--size", "48x27", "-o", "first.exr"}); // says which others there are
+    runGood({"render", "room", "--size", "48x27", "-o", "first.exr"}); // prints the names of the others
     EXPECT_TRUE(text(rendered({"--camera", "corner"}, ".exr", "room")) == text("first.exr"));
     EXPECT_FALSE(text(rendered({"--camera", "back"}, ".exr", "room")) == text("first.exr"));
 }

@@ -19,7 +19,7 @@ protected:
     void expectNoTemporaries() const {
         for (const auto& [name, contents] : files()) EXPECT_FALSE(isTemporary(name)) << name;
     }
-    /// At twelve places of its loop, or at four.
+    /// At twelve points of its loop in a whole sweep, else at four.
     void expectInterruptionsLeaveNoTemporaries();
 };
 using OutputSlow = Output;
@@ -49,7 +49,7 @@ TEST_F(Output, aFullDiskIsAnErrorThatKeepsTheOlderPicture) {
 
     folder_.write("old.exr", "an older picture");
     const std::map<std::string, std::string> before = files();
-    // 1 block, 512 or 1024 bytes by the shell, is the longest file that may be written from here on.
+    // Limits files written from here on to 1 block: 512 or 1024 bytes, depending on the shell.
     const ProcessResult limited =
         runShell(std::string("ulimit -f 1; exec ") + kProgram + " render lattice --lights 8 --size 160x90 -o old.exr",
                  folder_.path());
@@ -67,7 +67,7 @@ TEST_F(Output, failedPrintingIsAnError) {
 TEST_F(Output, aReaderWhoLeftCostsNoFile) {
     folder_.write("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ncurv 1 2\nf 1 2 3\n"); // warns of the curve
     const std::string tessera = kProgram;
-    // Neither of the messages, which are a warning here, nor of the output, which then ends the program as others.
+    // If stderr's reader has left, the file is still written. If stdout's reader has left, SIGPIPE ends the program.
     const std::string run = "(sleep 0.3; " + tessera + " plan m.obj ";
     ASSERT_EQ(runShell(run + "--json p.json 2>&1 >/dev/null; echo $? >code) | true", folder_.path()).exitCode, 0);
     EXPECT_EQ(text("code"), "0\n");
@@ -79,8 +79,8 @@ TEST_F(Output, aReaderWhoLeftCostsNoFile) {
 
 void Output::expectInterruptionsLeaveNoTemporaries() {
     const int attempts = isWholeSweep() ? 12 : 4;
-    std::signal(SIGINT, SIG_DFL); // a background process of a shell ignores it, and the program would inherit that
-    // Most of the time of these small pictures goes into writing them, so some of the signals come in the midst of it.
+    std::signal(SIGINT, SIG_DFL); // a shell's background processes ignore it, and the program would inherit that
+    // Writing takes most of the time of these small images, so some of the signals arrive during a write.
     int midWrites = 0;
     for (int attempt = 0; attempt < attempts; ++attempt) {
         const int signal = attempt % 2 == 0 ? SIGINT : SIGTERM;
@@ -88,7 +88,7 @@ void Output::expectInterruptionsLeaveNoTemporaries() {
                         {folder_.path(), {}, 60.0});
         const fs::path first = folder_.path() / "f3.exr";
         while (!fs::exists(first)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        // From another place of the loop each time, by a step that no period divides.
+        // A different point of the loop each time, by a step that no period divides.
         std::this_thread::sleep_for(std::chrono::microseconds(1370 * attempt));
         for (const fs::directory_entry& entry : fs::directory_iterator(folder_.path()))
             midWrites += isTemporary(entry.path().filename().string()) ? 1 : 0;

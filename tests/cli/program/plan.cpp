@@ -116,7 +116,7 @@ TEST_F(Plan, plansNeedNoGraphicsAndOtherCommandsNameTheMissingPackage) {
     expectError(1, {"plan", "room", "--measure"}, remedy, kNoGraphics);
     expectError(1, {"demo", "room"}, remedy, kNoGraphics);
     expectError(1, {"--version", "--verbose"}, remedy, kNoGraphics);
-    // The program's own version needs no driver.
+    // The program's version needs no driver.
     EXPECT_THAT(
         runGood({"--version"}, kNoGraphics),
         testing::ContainsRegex("^tessera [0-9.]+\ncommit +[^ \n]+\nOpenGL +none: no OpenGL 4.5 context[^\n]*\n$"));

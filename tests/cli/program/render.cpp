@@ -16,7 +16,7 @@ protected:
         EXPECT_TRUE(input) << OIIO::geterror();
         return input ? input->spec() : OIIO::ImageSpec();
     }
-    /// Of both filters that take samples, or of one.
+    /// For both filters that take samples in a whole sweep, else for one.
     void expectCauseOfTooManyIterationsNamed();
 };
 using RenderSlow = Render;
@@ -38,12 +38,12 @@ TEST_F(Render, picturesHaveTheRequestedSizeAndFormat) {
 }
 
 TEST_F(Render, exrIsTheLinearPictureThatPngShows) {
-    // Unlit colour c is radiance c exactly, and shown as sRGB of c.
+    // Unlit colour c is exactly radiance c, displayed as sRGB of c.
     writeQuad(R"({"name": "paint", "model": "single_color", "color": [0.5, 0.25, 4]})", "[]");
     runGood({"render", "quad.json", "--size", "16x9", "-o", "a.exr"});
     runGood({"render", "quad.json", "--size", "16x9", "-o", "a.png"});
     const Picture exr = picture("a.exr"), png = picture("a.png");
-    const float step = 0.005f; // one of 8-bit sRGB's steps near 1/2
+    const float step = 0.005f; // one step of 8-bit sRGB near 1/2
     for (std::size_t i = 0; i < exr.pixelCount(); ++i) {
         ASSERT_EQ(exr.pixel(i)[0], 0.5f);
         ASSERT_EQ(exr.pixel(i)[1], 0.25f);
@@ -168,7 +168,7 @@ TEST_F(Render, pixelsThatAreNoNumbersAreCounted) {
     folder_.write("floor.obj", "mtllib floor.mtl\nv -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nvn 0 1 0\nusemtl mirror\n"
                                "f 4//1 3//1 2//1 1//1\n");
     folder_.write("floor.mtl", "newmtl mirror\nPm 1\nPr 0\nKd 1 1 1\n");
-    const auto said = [&](const char* intensity) { // of a light 1 cm above a mirror
+    const auto said = [&](const char* intensity) { // intensity of a light 1 cm above a mirror
         folder_.write(
             "s.json",
             std::string(R"({"tessera": 1, "include": [{"file": "floor.obj"}], "cameras": [{"position": [0, 1, 0],
@@ -311,7 +311,7 @@ TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
 
 TEST_F(Render, thatAMapIsFilteredIsToldOnceAndNotAtAllWhereItIsQuiet) {
     writeQuad(R"({"name": "paint", "model": "lambert"})", "[]");
-    runGood({"render", "room", "--size", "16x8", "-o", "map.exr"}); // so small a map is soon filtered
+    runGood({"render", "room", "--size", "16x8", "-o", "map.exr"}); // so small a map is filtered quickly
     const auto said = [&](const char* command, const char* cache, const Words& more) {
         Words words{command, "quad.json", "--environment", "map.exr", "--size", "16x9"};
         words.insert(words.end(), more.begin(), more.end());

@@ -25,8 +25,8 @@ protected:
         writeMoving(3.0);
     }
 
-    /// "moving.json": a square, one a tenth as large before it, and a light of so many candela that circles before both
-    /// and casts shadows.
+    /// Writes "moving.json": a square, one a tenth as large in front of it, and a light of this many candela that
+    /// circles in front of both and casts shadows.
     void writeMoving(double candela) const {
         folder_.write("moving.json", fmt::format(R"({{"tessera": 1, "include": [
             {{"file": "quad.obj", "name": "square"}},
@@ -44,7 +44,7 @@ protected:
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
-    /// Frames 3 to 8, eight a second, into files f_3.exr and so on.
+    /// Frames 3 to 8 at eight per second, in files f_3.exr and so on.
     static Words sixFrames(const Words& more = {}) {
         Words words = command({"--frames", "3:8", "--fps", "8", "-o", "f_%d.exr"});
         words.insert(words.end(), more.begin(), more.end());
@@ -60,11 +60,11 @@ protected:
             if (name.starts_with(beginning) && name.ends_with(".exr")) found[name.substr(beginning.size())] = contents;
         return found;
     }
-    /// Each frame alone, looked at in three ways. Or each third, with shadow maps, which renderers keep from frame to
-    /// frame.
+    /// Compares each frame with a single image in three settings in a whole sweep; else every third frame, with shadow
+    /// maps, which renderers keep from frame to frame.
     void expectFramesAreThePicturesOfTheirTimes();
     void expectKillsLeaveNoTrace();
-    /// Of twelve processes, or of four.
+    /// Kills twelve processes in a whole sweep, else four.
     void expectKillsWhileWritingLeaveNoTrace();
 };
 using FrameSequencesSlow = FrameSequences;
@@ -151,7 +151,7 @@ void FrameSequences::expectKillsWhileWritingLeaveNoTrace() {
             std::this_thread::sleep_for(delay);
             try {
                 process.send(SIGKILL);
-            } catch (const std::runtime_error&) { // it had ended
+            } catch (const std::runtime_error&) { // it has ended
             }
         });
         const ProcessResult result = process.wait();
@@ -238,7 +238,7 @@ TEST_F(FrameSequences, shardsWriteTheirOwnFilesAndNothingIsToBeMerged) {
 }
 
 TEST_F(FrameSequences, namesThatCannotBeAreFoundBeforeTheFirstFrame) {
-    // That of frame 9 has 255 bytes, the most that file systems hold.
+    // The name of frame 9 has 255 bytes, the most that file systems support.
     const std::string name = std::string(250, 'f') + "%d.png";
     expectError(1, command({"--frames", "9:10", "-o", name}), {"10.png: File name too long; give a shorter one"});
     fs::create_symlink("/dev/null", path("f_frames.png.txt"));

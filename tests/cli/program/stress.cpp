@@ -41,7 +41,7 @@ TEST_F(StressCommand, theShardsHaveEveryResultOfAWholeRunOnceAndAsItIsThere) {
     nlohmann::json together = nlohmann::json::array();
     const nlohmann::json shards[] = {casesOf("1.json", {"--shard", "1/3"}), casesOf("2.json", {"--shard", "2/3"}),
                                      casesOf("3.json", {"--shard", "3/3"})};
-    // Shader functions alone have a result each: every third is a shard's.
+    // Each shader function has one result, and each shard every third of them.
     for (std::size_t i = 0; i < whole.size(); ++i) {
         ASSERT_LT(i / 3, shards[i % 3].size());
         together.push_back(shards[i % 3][i / 3]);

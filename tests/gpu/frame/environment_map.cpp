@@ -1,4 +1,4 @@
-// Parts of an environment on the GPU, each made when it is first asked for.
+// Parts of an environment on the GPU, each created when it is first requested.
 #include "renderer/frame/EnvironmentMap.h"
 
 #include "scenes/builtin/Pictures.h"
@@ -16,7 +16,7 @@ protected:
 
 TEST_F(EnvironmentParts, theMapAloneHoldsTheRadianceAndNoDensities) {
     EnvironmentGpu parts(environment);
-    // Those of the picture, with its opacity where environmentTexels() has a density.
+    // The map's texels, with their opacity where environmentTexels() has a density.
     EXPECT_EQ(parts.map().downloadAs<glm::vec4>(), latitudeMapOf(environment.map).texels);
 }
 

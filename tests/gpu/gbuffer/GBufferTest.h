@@ -10,7 +10,7 @@
 
 namespace tessera::test {
 
-/// In the order of store.frag; compared as it is.
+/// In the order of store.frag; compared bytewise.
 struct StoredSurface {
     glm::vec3 albedo{0.5f};
     float metallic = 0.0f;
@@ -37,10 +37,10 @@ static_assert(sizeof(StoredSurface) == kVectors * sizeof(glm::vec4));
 
 inline const shader::Defines kEveryMember = frame::featureDefines(frame::allFeatures());
 
-/// Surfaces through a real render into the channels of the table and back.
+/// Renders surfaces into the channels of the table and reads them back.
 class GBufferTest : public GlTest {
 protected:
-    /// All channels, the normal-map texel in a run of its own: OpenGL guarantees eight attachments.
+    /// All channels; the normal-map texel in a separate run, as OpenGL guarantees eight attachments.
     std::vector<StoredSurface> roundTrip(const std::vector<StoredSurface>& surfaces, frame::Encoding encoding) {
         std::vector<frame::Channel> channels;
         for (const frame::ChannelInfo& info : frame::channelTable())

@@ -43,7 +43,7 @@ std::vector<StoredSurface> randomSurfaces(int count) {
         s.sheenAlpha = float(random.logarithmic(ALPHA_MIN, 1.0));
         surfaces.push_back(s);
     }
-    // The axes and the seams of the octahedron, where a sign of zero decides.
+    // The axes and the seams of the octahedron, where the sign of zero matters.
     for (const glm::vec3 n :
          {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),
           glm::vec3(0, 0, -1), glm::vec3(-0.6f, 0, -0.8f), glm::vec3(0, 0.6f, -0.8f)}) {
@@ -69,7 +69,7 @@ std::vector<StoredSurface> surfacesBetweenSteps(frame::Encoding encoding, int co
         return encoding == frame::Encoding::Packed ? info.packed : info.slim;
     };
     Random random(12);
-    // Half-way between two of so many steps of 0..1, a little to either side.
+    // Halfway between two of this many steps of 0..1, shifted a little to either side.
     const auto between = [&](int steps) {
         return std::clamp((random.index(steps) + 0.5 + random.between(-1e-3, 1e-3)) / steps, 0.0, 1.0);
     };
@@ -97,7 +97,7 @@ std::vector<StoredSurface> surfacesBetweenSteps(frame::Encoding encoding, int co
         s.specular = color(widthsOf(frame::Channel::Specular));
         s.sheenColor = color(sheen);
         s.normal = fromOctahedral(coordinate(normal[0]), coordinate(normal[1]));
-        if (i % 2 == 0) // the middle of a face, where a step is the widest angle
+        if (i % 2 == 0) // the centre of a face, where a step spans the widest angle
             s.normal = fromOctahedral(1.0 / 3.0 + random.between(-0.02, 0.02), 1.0 / 3.0 + random.between(-0.02, 0.02));
         s.alpha = alpha(micro[1]);
         s.alphaBitangent = alpha(tangent[2]);

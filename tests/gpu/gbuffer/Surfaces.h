@@ -4,16 +4,16 @@
 #include "renderer/frame/GBufferLayout.h"
 #include "tests/gpu/gbuffer/GBufferTest.h"
 
-/// Surfaces that ask everything of the G-buffer's encodings.
+/// Surfaces that exercise all of the G-buffer's encodings.
 namespace tessera::test {
 
-/// All over the range of every value.
+/// Surfaces with random values over the whole range of every quantity.
 std::vector<StoredSurface> randomSurfaces(int count);
 
-/// Between two steps of a layout's fields, where rounding is worst.
+/// Surfaces with values between two steps of a layout's fields, where rounding is worst.
 std::vector<StoredSurface> surfacesBetweenSteps(frame::Encoding encoding, int count);
 
-/// Ends of ranges, and where something could be divided by nothing or change its sign.
+/// Surfaces at the ends of ranges, and where a divisor could be zero or a sign could change.
 std::vector<StoredSurface> surfacesAtTheEnds();
 
 glm::vec3 fromOctahedral(double x, double y);

@@ -1,4 +1,4 @@
-// The error of every stored value against the bound that is derived from its field (tests/support/GBufferBounds.h).
+// Compares the error of every stored value with the bound derived from its field (tests/support/GBufferBounds.h).
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -18,7 +18,7 @@ using frame::Channel;
 using test::GBufferTest;
 using test::StoredSurface;
 
-/// NaN where the surface has no such value.
+/// The error of a stored value; NaN if the surface has no such value.
 using Error = std::function<double(const StoredSurface& was, const StoredSurface& is)>;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -80,7 +80,7 @@ std::map<Key, Error> errors(frame::Encoding encoding) {
     };
     all[{Channel::Tangent, "direction"}] = [](auto& a, auto& b) {
         const double angle = angleDegrees(a.tangent, b.tangent);
-        return std::min(angle, 180.0 - angle); // a tangent has no sign
+        return std::min(angle, 180.0 - angle); // the sign of a tangent is irrelevant
     };
     all[{Channel::Tangent, "fourth root of alpha"}] = [](auto& a, auto& b) {
         return rootError(a.alphaBitangent, b.alphaBitangent, 0.25);
@@ -124,8 +124,8 @@ TEST_F(GBufferTest, errorsNeverExceedTheBoundDerivedFromTheirFieldAndComeNearIt)
                 }
             }
             fmt::print("{}: {:.3g} of {:.3g} {}\n", name, worst, bound.bound, bound.unit);
-            // 2e-6 for some ten fp32 roundings of values around 1 on the way to a code and back; an angle's is in
-            // degrees, and the octahedron's second order adds a step's share of the bound.
+            // 2e-6 for some ten fp32 roundings of values around 1 on the way to a code and back. Angles are in degrees,
+            // and the octahedral mapping's second order adds a fraction of the bound.
             const bool angle = bound.unit == "degrees";
             const double rounding = angle ? 2e-5 + bound.bound * 2e-3 : 2e-6;
             EXPECT_LE(worst, bound.bound + rounding) << name << ", surface " << where;
@@ -134,8 +134,8 @@ TEST_F(GBufferTest, errorsNeverExceedTheBoundDerivedFromTheirFieldAndComeNearIt)
     }
 }
 
-/// The quantities in which lighting is linear, or nearly: a flat paint shows their mean over pixels. Tangents and the
-/// coat's normal are not dithered.
+/// The quantities in which lighting is linear, or nearly: a uniform surface shows their mean over pixels. Tangents and
+/// the coat's normal are not dithered.
 std::vector<double> linearValues(const StoredSurface& s) {
     std::vector<double> values;
     const auto add = [&](const glm::vec3& v) { values.insert(values.end(), {v.x, v.y, v.z}); };
@@ -147,7 +147,7 @@ std::vector<double> linearValues(const StoredSurface& s) {
     return values;
 }
 
-/// Values that one code or threshold rounds: parts of the normal, and the alphas of a lobe with blinn_phong's exponent.
+/// Whether one code rounds both: components of the normal, or the alphas of a lobe and blinn_phong's exponent.
 bool areRoundedTogether(std::size_t a, std::size_t b) {
     const auto groupOf = [](std::size_t value) {
         if (value >= 3 && value < 6) return 1;
@@ -156,7 +156,7 @@ bool areRoundedTogether(std::size_t a, std::size_t b) {
     return groupOf(a) != 0 && groupOf(a) == groupOf(b);
 }
 
-/// The largest correlation of two values' errors that are not rounded together; row r of `errors` is pixel r's.
+/// The largest correlation of the errors of two values that are not rounded together; row r of `errors` is pixel r's.
 double worstCorrelation(const std::vector<std::vector<double>>& errors) {
     const std::size_t count = errors.front().size();
     std::vector<double> squares(count, 0.0), products(count * count, 0.0);
@@ -176,7 +176,7 @@ double worstCorrelation(const std::vector<std::vector<double>>& errors) {
     return worst;
 }
 
-/// The largest, relative to the value, of the errors of the means of a surface's alphas.
+/// The largest relative error of the mean of one of a surface's alphas.
 double worstMeanOfAlphas(const StoredSurface& surface, const std::vector<StoredSurface>& back) {
     double worst = 0.0;
     for (float StoredSurface::*const alpha : {&StoredSurface::alpha, &StoredSurface::alphaBitangent,
@@ -208,12 +208,12 @@ TEST_F(GBufferTest, theMeanOfAValueOverPixelsIsTheValue) {
     for (const frame::Encoding encoding : {frame::Encoding::Packed, frame::Encoding::Slim}) {
         double worst = 0.0, correlation = 0.0;
         std::vector<StoredSurface> random = test::randomSurfaces(6);
-        random.resize(6); // one of each model, without the axes behind them
+        random.resize(6); // one of each model, without the axes appended to them
         for (StoredSurface surface : random) {
             if (surface.emission.x > 1e3f || surface.emission.x < 1e-3f) surface.emission = surface.albedo;
             if (isBlinnPhong(surface)) surface.alpha = 1.0f;                                // not stored
-            if (isMicrofacet(surface)) surface.iorOrF90 = std::min(surface.iorOrF90, 5.0f); // held far above that
-            // A picture's worth of the same surface.
+            if (isMicrofacet(surface)) surface.iorOrF90 = std::min(surface.iorOrF90, 5.0f); // clamped far above
+            // A whole image of the same surface.
             const std::vector<StoredSurface> back = roundTrip(std::vector<StoredSurface>(512 * 128, surface), encoding);
             const std::vector<double> wanted = linearValues(surface);
             std::vector<double> mean(wanted.size(), 0.0);
@@ -230,8 +230,8 @@ TEST_F(GBufferTest, theMeanOfAValueOverPixelsIsTheValue) {
             for (std::size_t v = 0; v < wanted.size(); ++v) {
                 const double bias = std::abs(mean[v] - wanted[v]) / std::max(1.0, std::abs(wanted[v]));
                 worst = std::max(worst, bias);
-                // Parts of a unit vector are linear in its code but for the second order of a step.
-                // F90 has one bit in `slim`: the thresholds of so many pixels are even to 1.3e-4 of that step.
+                // Components of a unit vector are linear in its code except for the second order of a step. F90 has one
+                // bit in `slim`: the thresholds of all pixels are uniform to 1.3e-4 of that step.
                 const bool isOneBit = v == 20 && encoding == frame::Encoding::Slim && !isMicrofacet(surface);
                 EXPECT_LE(bias, isOneBit ? 2e-4 : 1e-4)
                     << "value " << v << " is " << wanted[v] << ", in the mean " << mean[v];
@@ -239,8 +239,8 @@ TEST_F(GBufferTest, theMeanOfAValueOverPixelsIsTheValue) {
         }
         fmt::print("{}: means are off by {:.2g} at most, errors correlate by {:.2g} at most\n",
                    frame::layoutTable()[std::size_t(encoding)].name, worst, correlation);
-        // Errors of two values whose shares of a step are near a half correlate by 1 if one threshold rounds both.
-        // Independent ones do by chance, the more the rarer: a share of 1/1000 is an error in 65 of the pixels.
+        // If one threshold rounded two values near the middle of a step, their errors would correlate by 1. Independent
+        // errors correlate by chance, more if they are rare: at 1/1000 of a step, 65 pixels have an error.
         EXPECT_LE(correlation, 0.15);
     }
 }

@@ -1,4 +1,4 @@
-// Reads the surfaces back from the G-buffer, in the form that store.frag takes them.
+// Reads the surfaces back from the G-buffer, in the layout that store.frag reads.
 #include "lib/gbuffer/gbuffer.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// What the encodings of the G-buffer keep exactly.
+// Values that the encodings of the G-buffer keep exactly.
 #include <algorithm>
 #include <cmath>
 
@@ -44,8 +44,8 @@ TEST_F(GBufferTest, everyLayoutKeepsModelAndMasking) {
     }
 }
 
-// What a scene without a channel would see in its place must come back from the channel to the last bit, or leaving it
-// out would change the picture: no emission, no coat, no sheen, k_s 1, F0 0.04, F90 1.
+// The values of a scene without a channel must come back from the channel to the last bit, or leaving it out would
+// change the image: no emission, no coat, no sheen, k_s 1, F0 0.04, F90 1.
 TEST_F(GBufferTest, everyLayoutKeepsTheValuesOfAbsentChannelsExactly) {
     for (const frame::Encoding encoding : kCoarse) {
         std::vector<StoredSurface> surfaces(4);
@@ -92,8 +92,8 @@ TEST_F(GBufferTest, anIsotropicLobeNeverBecomesAnisotropic) {
 }
 
 TEST_F(GBufferTest, unditheredFieldsTakeTheNearestCode) {
-    // The coat's normal in steps of its 12 or 10 bits, of which all but the last code are used; 0.497 of a step is
-    // further from the half than fp32 rounds -1..1 at 2^11 steps (1e-4) and than what counts as a whole step (1e-3).
+    // The coat's normal in steps of its 12 or 10 bits, of whose codes all but the last are used. 0.497 of a step is
+    // further from the half than fp32 rounds -1..1 at 2^11 steps (1e-4) and than the tolerance of a whole step (1e-3).
     for (const frame::Encoding encoding : kCoarse) {
         const int middle = encoding == frame::Encoding::Packed ? 2047 : 511;
         std::vector<StoredSurface> surfaces(2);

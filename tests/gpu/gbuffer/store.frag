@@ -1,4 +1,4 @@
-// Stores one surface a pixel, taken from a list.
+// Stores one surface per pixel, read from a list.
 #define GBUFFER_WRITE
 #include "lib/gbuffer/gbuffer.glsl"
 

@@ -17,7 +17,7 @@ TEST_F(ContextTest, capabilitiesNameTheDriverAndItsLimits) {
     EXPECT_THAT(capabilities.version, testing::MatchesRegex("4\\.[5-9].*"));
     EXPECT_THAT(capabilities.glslVersion, testing::MatchesRegex("4\\.[5-9].*"));
     EXPECT_FALSE(capabilities.contextWay.empty());
-    // The least values OpenGL 4.5 allows (tables 23.53 ff.).
+    // Minimum values of OpenGL 4.5 (tables 23.53 ff.).
     EXPECT_GE(capabilities.maxTextureSize, 16384);
     EXPECT_GE(capabilities.maxTextureBufferTexels, 65536u);
     EXPECT_GE(capabilities.maxUniformBlockBytes, 16384u);
@@ -27,7 +27,7 @@ TEST_F(ContextTest, capabilitiesNameTheDriverAndItsLimits) {
     EXPECT_EQ(capabilities.isSoftware, capabilities.renderer.find("llvmpipe") != std::string::npos);
 }
 
-/// Else ./test --driver would test the first driver again where the second cannot be loaded.
+/// Otherwise ./test --driver would test the first driver again if the second cannot be loaded.
 TEST_F(ContextTest, aDriverThatTheEnvironmentAsksForIsTheOneInUse) {
     const char* const driver = std::getenv("MESA_LOADER_DRIVER_OVERRIDE");
     if (!driver) GTEST_SKIP() << "the environment names no driver";

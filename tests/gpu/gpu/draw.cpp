@@ -127,7 +127,7 @@ TEST_F(DrawTest, srgbTargetsEncode) {
     EXPECT_NEAR(texel[3], 127.5, 0.5);
 }
 
-/// Two quads of one triangle pair each, told apart by an instance attribute, as scenes are drawn.
+/// Two quads of one triangle pair each, distinguished by an instance attribute, as scenes are drawn.
 class GeometryTest : public DrawTest {
 protected:
     GeometryTest() {
@@ -293,7 +293,7 @@ TEST_F(FramebufferTest, aFramebufferNeverOutlivesItsTexturesInTheCache) {
         EXPECT_EQ(cache.get({{}, &depth}).width(), 4);
         EXPECT_EQ(cache.size(), 2u);
     }
-    // GL hands the dead texture's name to the next one; the cache must not take the two for one.
+    // GL reuses the deleted texture's name for the next one; the cache must distinguish the two.
     const Texture next("next", {graph::Format::Rgba8Unorm, 4, 4, 1});
     cache.get(next, &depth);
     EXPECT_EQ(cache.size(), 2u);

@@ -11,8 +11,8 @@
 #include "tests/support/GlContext.h"
 #include "tests/support/Random.h"
 
-// Entry points of OpenGL as the loader has them. Its header is renderer/gpu's own, and these tests spell out OpenGL's
-// numbers (gl.xml of the Khronos registry) once more.
+// Entry points of OpenGL as the loader declares them. Its header is private to renderer/gpu, so these tests repeat
+// OpenGL's numbers (gl.xml of the Khronos registry).
 extern "C" {
 extern void (*glad_glMemoryBarrier)(unsigned);
 extern void (*glad_glGetIntegeri_v)(unsigned, unsigned, int*);
@@ -23,7 +23,7 @@ extern void (*glad_glGetNamedBufferParameteri64v)(unsigned, unsigned, std::int64
 namespace tessera::gpu {
 namespace {
 
-/// What reached OpenGL, for what no picture of a software rasteriser shows.
+/// Records calls to OpenGL whose effect no image of a software rasteriser shows.
 class GlCallsTest : public test::GlTest {};
 
 unsigned recordedBits = 0;
@@ -56,7 +56,7 @@ TEST_F(GlCallsTest, everySetOfBarriersIsIssuedWithAllItsBits) {
     glad_glMemoryBarrier = original;
 }
 
-/// What is bound as the uniform block at a slot.
+/// The buffer range bound as the uniform block at a slot.
 struct BoundRange {
     std::int64_t start = 0, bytes = 0, bufferBytes = 0;
 };
@@ -105,10 +105,10 @@ TEST_F(GlCallsTest, constantsOfAllSizesAreAlignedApartAndThoseOfTheirDispatch) {
         expected.push_back(words[1] + words.back());
         ring.bind(kSlot, std::as_bytes(std::span(words)));
         const BoundRange range = boundRange(kSlot);
-        // A GPU may ask for offsets in steps of 256 bytes, and for no more.
+        // A GPU may require offsets that are multiples of 256 bytes, the largest alignment allowed.
         ASSERT_EQ(range.start % 256, 0) << "constants " << i;
         ASSERT_EQ(range.bytes, std::int64_t(words.size() * 4));
-        // A half is written again when the GPU has read it, so none may reach into the other one.
+        // A half is rewritten once the GPU has read it, so constants must not extend into the other one.
         const std::int64_t half = range.bufferBytes / 2;
         ASSERT_EQ(range.start / half, (range.start + range.bytes - 1) / half) << "constants " << i;
         ASSERT_LE(range.start + range.bytes, range.bufferBytes);

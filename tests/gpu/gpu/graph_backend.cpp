@@ -31,7 +31,7 @@ protected:
         graph::BufferHandle numbers, sum;
     };
 
-    /// Two compute passes: numbers 1..4, then their squares' sum. `inSecond` runs within the second one.
+    /// Two compute passes: the numbers 1 to 4, then the sum of their squares. `inSecond` runs within the second one.
     graph::Graph twoPasses(const std::function<void()>& inSecond = [] {}) {
         graph::Graph graph;
         const auto first = graph.addPass<Doubled>(
@@ -91,7 +91,7 @@ TEST_F(DebugTest, anErrorIsThrownWithItsDebugGroups) {
     } catch (const std::runtime_error& error) {
         EXPECT_THAT(error.what(), HasSubstr("OpenGL failed in a test: frame / lighting: "));
     }
-    EXPECT_NO_THROW(throwIfFailed()); // told once
+    EXPECT_NO_THROW(throwIfFailed()); // reported once
 }
 
 TEST_F(DebugTest, anErrorIsFoundWithoutDebugOutputToo) {
@@ -144,7 +144,7 @@ TEST_F(GraphBackendTest, aFaultOfThePassIsThrownWithItsName) {
         EXPECT_THAT(error.what(), HasSubstr("pass 'sum of squares'"));
         EXPECT_THAT(error.what(), HasSubstr("sum of squares: GL_INVALID_VALUE"));
     }
-    EXPECT_EQ(run(twoPasses()), 30.0f); // the backend is as good as before
+    EXPECT_EQ(run(twoPasses()), 30.0f); // the backend still works
 }
 
 TEST_F(GraphBackendTest, aPassThatThrowsIsClosed) {

@@ -1,4 +1,4 @@
-// Draws in parts (Bands.h): which triangles and which pixels each piece has.
+// Drawing in parts (Bands.h): the triangles and the pixels of each piece.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -12,8 +12,8 @@
 #include "renderer/graph/Execute.h"
 #include "tests/support/GlContext.h"
 
-// Entry points of OpenGL as the loader has them, whose header is renderer/gpu's own, and OpenGL's numbers (gl.xml of
-// the Khronos registry).
+// Entry points of OpenGL as the loader declares them, whose header is private to renderer/gpu, and OpenGL's numbers
+// (gl.xml of the Khronos registry).
 extern "C" {
 extern void (*glad_glGetIntegerv)(unsigned, int*);
 extern unsigned char (*glad_glIsEnabled)(unsigned);
@@ -26,7 +26,7 @@ bool isScissored() {
     return glad_glIsEnabled(0x0C11) != 0; // GL_SCISSOR_TEST
 }
 
-/// The triangles of a part, on all pixels that its pieces have.
+/// The triangles of a part, drawn to all pixels of its pieces.
 struct DrawnPart {
     std::size_t first = 0;
     std::size_t count = 0;
@@ -40,11 +40,11 @@ bool isOnePiece(const DrawnPart& part) {
 
 class PartsTest : public test::GlTest {
 protected:
-    static constexpr int kWidth = 90, kHeight = 300; // no multiples of a band's rows or of a piece's columns
+    static constexpr int kWidth = 90, kHeight = 300; // not multiples of a band's rows or of a piece's columns
     static constexpr std::size_t kPixels = std::size_t(kWidth) * kHeight;
 
     void SetUp() override { bindFramebuffer(framebuffer); }
-    /// Draws nothing, but takes `ms`, and for each of its triangles so much besides.
+    /// Draws nothing, but sleeps for `ms` per piece and `nsEachTriangle` per triangle.
     void draw(std::size_t triangles, int ms = 0, double nsEachTriangle = 0.0) {
         drawInParts(triangles, [&](std::size_t first, std::size_t count) {
             if (parts.empty() || parts.back().first != first)
@@ -70,7 +70,7 @@ protected:
         EXPECT_EQ(next, triangles);
     }
 
-    std::vector<DrawnPart> parts; ///< in the order in which they were drawn
+    std::vector<DrawnPart> parts; ///< in drawing order
     Texture target{"parts", {graph::Format::Rgba8Unorm, kWidth, kHeight, 1}};
     Framebuffer framebuffer{Attachments{{&target}}};
 };
@@ -121,15 +121,15 @@ TEST_F(PartsTest, quickPartsGrow) {
 
 TEST_F(PartsTest, whereTrianglesAreSlowThePartsShrinkUntilBandsNeedNotRepeatThem) {
     const BandedDrawing banded([] { return false; });
-    draw(100'000, 0, 1000.0); // 8 ms for the first part: less than a piece should take, but not half of it
+    draw(100'000, 0, 1000.0); // 8 ms for the first part: less than a piece should take, but more than half of it
     EXPECT_GT(parts.front().pieces, 1);
     EXPECT_TRUE(std::ranges::any_of(parts, isOnePiece));
 }
 
 TEST_F(PartsTest, slowBandsOfANarrowAreaGrowAgain) {
     setScissor({0, 0, 8, kHeight});
-    std::vector<int> pieces; // by part
-    std::size_t latest = 1;  // no part begins with it
+    std::vector<int> pieces; // number of pieces by part
+    std::size_t latest = 1;  // no part begins there
     {
         const BandedDrawing banded([] { return false; }, {.longestMs = 20});
         drawInParts(1'000'000, [&](std::size_t first, std::size_t) {
@@ -138,7 +138,7 @@ TEST_F(PartsTest, slowBandsOfANarrowAreaGrowAgain) {
             if (pieces.size() == 1) std::this_thread::sleep_for(std::chrono::milliseconds(25));
         });
     }
-    bindFramebuffer(framebuffer); // without the scissor
+    bindFramebuffer(framebuffer); // resets the scissor
     EXPECT_GT(pieces.front(), 5) << "as low and narrow as can be";
     EXPECT_TRUE(std::ranges::find(pieces, 1) != pieces.end());
 }

@@ -56,7 +56,7 @@ TEST_F(ProgramTest, aStageThatSamplesMoreTexturesThanTheDriverOffersIsRefused) {
     };
     EXPECT_EQ(Program("full", stage(16)).sampledTextures(Stage::Compute), 16);
     try {
-        const Program program("greedy", stage(1000)); // some drivers refuse it by themselves
+        const Program program("greedy", stage(1000)); // some drivers refuse it themselves
         FAIL() << "expected a ShaderError";
     } catch (const ShaderError& error) {
         EXPECT_THAT(error.what(), EndsWith("\nIt is program 'greedy'."));

@@ -38,7 +38,7 @@ TEST_F(BufferTest, aNewBufferIsZeroAndNeverEmpty) {
     const Buffer empty("empty", 0);
     EXPECT_EQ(empty.bytes(), 16u);
     EXPECT_THAT(empty.downloadAs<std::uint32_t>(4), Each(0u));
-    // Used memory is what a driver may hand out again as it is; llvmpipe zeroes it by itself, others do not.
+    // A driver may reuse memory without clearing it; llvmpipe zeroes it, others do not.
     const auto make = [](int i) { return Buffer("small " + std::to_string(i), 256); };
     for (int i = 0; i < 64; ++i) make(i).upload(std::vector<std::uint32_t>(64, 0xffffffffu));
     for (int i = 0; i < 64; ++i) EXPECT_THAT(make(i).downloadAs<std::uint32_t>(64), Each(0u));
@@ -106,11 +106,11 @@ TEST_F(TextureTest, texelsOfEveryFormatSurviveARoundTrip) {
         ASSERT_EQ(texels.size(), std::size_t(7 * 3 * info.bytes));
         if (info.name.ends_with("32F")) {
             std::vector<float> values(texels.size() / sizeof(float));
-            // Depth is clamped to 0..1, so stay there.
+            // Depth is clamped to 0..1, so the values stay there.
             for (std::size_t k = 0; k < values.size(); ++k) values[k] = float(k) / float(values.size());
             std::memcpy(texels.data(), values.data(), texels.size());
         } else {
-            // 0x3b a byte: neither NaN nor infinite as a half, not -32768 as a 16-bit signed-normalised number.
+            // Only bits of 0x3b: neither NaN nor infinite as a half, not -32768 as a 16-bit signed-normalised number.
             for (std::size_t k = 0; k < texels.size(); ++k) texels[k] = std::byte((k * 7 + 1) & 0x3b);
         }
         texture.upload(0, std::span<const std::byte>(texels));

@@ -36,7 +36,7 @@ TEST_F(TexelReaderTest, aTexelOfEachTextureComesAsItIsStored) {
     EXPECT_FALSE(reader.isBusy());
     EXPECT_FALSE(reader.take());
     const std::array<const Texture*, 2> textures{&radiance, &display};
-    reader.request(textures, {0, 0}); // is forgotten
+    reader.request(textures, {0, 0}); // replaced by the next request
     reader.request(textures, {1, 1});
     EXPECT_TRUE(reader.isBusy());
     finish();

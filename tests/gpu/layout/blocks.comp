@@ -1,4 +1,4 @@
-// Reads every member of the shared structs, so that a driver keeps them all and reports their places.
+// Reads every member of the shared structs, so that a driver keeps them all and reports their offsets.
 #include "shared/display.h"
 #include "shared/frame.h"
 #include "shared/material.h"

@@ -1,4 +1,4 @@
-// Structs shared by C++ and GLSL lie in both where the driver says.
+// Structs shared by C++ and GLSL have the offsets that the driver reports.
 #include <cstddef>
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Name, offset, and the stride of its array or columns (0: neither).
+/// Name, offset, and the stride of the array or of the matrix columns (0: neither).
 using Place = std::tuple<std::string, std::size_t, std::size_t>;
 
 constexpr std::size_t kOutputs = 23 + 2 * TEXTURE_SLOT_COUNT;

@@ -1,4 +1,4 @@
-// The light texels as they are fetched, as many vec4 a light as C++ has of them.
+// The light texels as fetched, with as many vec4 per light as in C++.
 #include "bench/light_store.glsl"
 #include "lib/light/light.glsl"
 

@@ -15,7 +15,7 @@
 namespace tessera::passes {
 namespace {
 
-/// Notes the bytes that it is asked for instead of taking them, and has one buffer for everything.
+/// Records requested sizes instead of allocating them, and returns the same buffer for everything.
 class NotingContext final : public graph::PassContext {
 public:
     const gpu::Texture& texture(graph::TextureHandle) const override { throw std::logic_error("no textures"); }

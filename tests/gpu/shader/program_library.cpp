@@ -76,7 +76,7 @@ TEST_F(ProgramLibraryTest, warningsStandBehindTheErrorWithTheirOwnFileAndLine) {
         const std::string text = error.what();
         const std::size_t fault = text.find("shaders/answer.comp:4: error");
         ASSERT_NE(fault, std::string::npos) << text;
-        const std::size_t warning = text.find(": warning"); // drivers are free to give none
+        const std::size_t warning = text.find(": warning"); // drivers need not give one
         if (warning == std::string::npos) return;
         EXPECT_GT(warning, fault) << text;
         EXPECT_NE(text.find("shaders/lib/answer.glsl:5: warning"), std::string::npos) << text;

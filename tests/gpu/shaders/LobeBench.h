@@ -7,7 +7,7 @@
 
 namespace tessera::test {
 
-/// A surface of any model and layers with a light and a viewer.
+/// A surface of any model and layers, with directions to a light and to the viewer.
 struct LobeCase {
     unsigned model = unsigned(scenes::MaterialModel::MetallicRoughness);
     glm::vec3 albedo{0.5f};
@@ -35,7 +35,7 @@ struct LobeResult {
     float d, v, f;
 };
 
-/// One term each, as lobe_terms.comp gives them.
+/// Single terms, in the order of lobe_terms.comp.
 struct LobeTerms {
     float anisotropicD, isotropicD, smithLength, alphaAlong;
     float blinnPhong, charlieD, charlieV, sheenAlbedo;
@@ -97,7 +97,7 @@ protected:
                c.z >= 0.0f;
     }
 
-    /// The surface without coat and sheen, and with the masking that every model has.
+    /// The surface without coat and sheen, and with the masking that every model supports.
     static LobeCase bare(LobeCase c) {
         c.masking = MASKING_WALTER;
         c.coatFactor = 0.0f;

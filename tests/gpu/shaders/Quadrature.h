@@ -9,12 +9,12 @@ namespace tessera::test {
 /// A half vector of a quadrature over the hemisphere about +z.
 struct HalfVector {
     glm::dvec3 h;
-    double weight; ///< steradians
+    double weight; ///< solid angle in steradians
 };
 
-/// Midpoint rule over the half vectors h of GGX at `alpha`, by tan theta = alpha tan psi with psi and phi equally
-/// spaced: D cos theta becomes sin 2 psi / 2 pi, so the lobe is resolved alike for every alpha. phi runs over half a
-/// turn only, doubled by the weight, as every integrand here is even in phi.
+/// Midpoint rule over the half vectors h of GGX at `alpha`, with tan theta = alpha tan psi, and psi and phi equally
+/// spaced: D cos theta becomes sin 2 psi / 2 pi, so the lobe is resolved equally well for every alpha. phi covers half
+/// a turn only, doubled by the weight, as every integrand here is even in phi.
 template <typename Visit>
 void forHalfVectors(double alpha, int psiSteps, int phiSteps, const Visit& visit) {
     using std::numbers::pi;

@@ -15,7 +15,7 @@ namespace {
 using scenes::LightType;
 using std::numbers::pi;
 
-/// Of corners: twice the area within them, in their own measure.
+/// Twice the area within the corners, in units of their coordinates.
 double twiceAreaOf(const std::vector<glm::vec2>& corners) {
     double twice = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -25,9 +25,9 @@ double twiceAreaOf(const std::vector<glm::vec2>& corners) {
     return twice;
 }
 
-/// As LightCornerTexels, and the share of the product of both vectors that is within the corners.
+/// The outline as LightCornerTexels, and its area as a fraction of the product of both vectors.
 struct PackedOutline {
-    std::array<glm::vec4, LIGHT_CORNER_TEXELS> texels{}; // without its triangles, which shadows alone need
+    std::array<glm::vec4, LIGHT_CORNER_TEXELS> texels{}; // without its triangles, which only shadows need
     float areaShare = 0.0f;
 };
 
@@ -48,7 +48,7 @@ PackedOutline packedOutline(const std::vector<glm::vec2>& corners) {
     return packed;
 }
 
-/// What a flat piece facing the point adds: by the square metres it shows to the point times its distance.
+/// Density of a lobe: the fraction that a surface element covers, per its area times the distance of its plane.
 class LobeDensity {
 public:
     explicit LobeDensity(const glm::mat3& matrix) : matrix_(matrix) {
@@ -66,7 +66,7 @@ private:
     double scale_;
 };
 
-/// Over a square of -1..1 both ways, by `columns` x `rows` pieces of Gauss's four points a side.
+/// Integral over the square -1..1 x -1..1, by `columns` x `rows` cells of 4 x 4 Gauss points.
 template <typename Value>
 double overSquare(int columns, int rows, const Value& value) {
     constexpr double kPlaces[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
@@ -80,7 +80,7 @@ double overSquare(int columns, int rows, const Value& value) {
     return sum / (columns * rows);
 }
 
-/// Triangles from the first corner, those that turn back taken away.
+/// Integral over a polygon: a sum of signed triangles from the first corner.
 template <typename Value>
 double overPolygon(const std::vector<glm::vec2>& corners, const Value& value) {
     double sum = 0.0;
@@ -95,7 +95,7 @@ double overPolygon(const std::vector<glm::vec2>& corners, const Value& value) {
     return sum;
 }
 
-/// `value` of parts of two vectors from a disk's middle, times its area by their product.
+/// Integral over the unit disk, whose coordinates are in units of a disk's two vectors.
 template <typename Value>
 double overDisk(const Value& value) {
     return overSquare(10, 20, [&](double x, double y) {

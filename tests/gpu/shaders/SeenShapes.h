@@ -8,10 +8,10 @@
 #include "scenes/Scene.h"
 #include "tests/gpu/shaders/ShaderBench.h"
 
-/// Area lights as a point sees them, and what a lobe sees of them: by shaders, and by integrals in double.
+/// Area lights around a shading point, and the fraction of a lobe they cover: by shaders, and by integrals in double.
 namespace tessera::test {
 
-/// As LightShapeTexels; metres, and from the point. What rounding to floats leaves of it is the light itself.
+/// A light as in LightShapeTexels, in metres from the shading point. The rounded floats define the light exactly.
 struct SeenShape {
     scenes::LightType type = scenes::LightType::Rectangle;
     glm::vec3 middle{0.0f};
@@ -19,17 +19,17 @@ struct SeenShape {
     float radius = 0.0f;   ///< of a tube
     glm::vec3 second{0.0f};
     bool isTwoSided = true;
-    std::vector<glm::vec2> corners{}; ///< of a polygon, counterclockwise: in parts of `first` and `second`
-    int picture = -1;                 ///< of those that are bound, or none
+    std::vector<glm::vec2> corners{}; ///< of a polygon, counterclockwise, in units of `first` and `second`
+    int picture = -1;                 ///< index of a bound image, or -1
 };
 
-/// To a clamped cosine around z: a matte surface, and lobes that lean and are narrow.
+/// Transforms to a clamped cosine around z: for a matte surface, and for tilted and narrow lobes.
 extern const std::array<glm::mat3, 3> kCosineMatrices;
 
-/// The share of such a lobe that each light fills, by an integral over its surface: all of the light above the horizon
-/// of surface and cosine, or next to nothing of it below.
+/// The fraction of such a lobe that a light covers, by an integral over its surface. At most a negligible part of the
+/// light may be below the horizon of surface or cosine.
 double shareByQuadrature(const SeenShape& shape, const glm::mat3& cosineFromSurface);
-/// The same of a flat light whose places count by a factor, given in parts of `first` and `second`.
+/// The same for a flat light with a radiance factor: a function of the position in units of `first` and `second`.
 double shareByQuadrature(const SeenShape& shape, const glm::mat3& cosineFromSurface,
                          const std::function<double(double, double)>& factor);
 
@@ -37,7 +37,7 @@ struct SeenByShader {
     double share = 0.0;
     glm::dvec3 pictureFactor{1.0};
 };
-/// By lib/light/area_light.glsl.
+/// Computed by lib/light/area_light.glsl.
 std::vector<SeenByShader> seenByShader(ShaderBench& bench, const std::vector<SeenShape>& shapes,
                                        const glm::mat3& cosineFromSurface);
 

@@ -16,18 +16,18 @@
 
 namespace tessera::test {
 
-/// Runs the product's shader functions on numbers of a test's choice: compute shaders of shaders/stress/, and of
-/// tests/gpu/ as test/. They see the product's shader tree as it lies in shaderFolder().
+/// Runs the product's shader functions on test data: compute shaders of shaders/stress/, and of tests/gpu/ as test/.
+/// They include from the product's shader tree in shaderFolder().
 class ShaderBench {
 public:
     ShaderBench() : ShaderBench([](const std::filesystem::path&) {}) {}
 
-    /// With sources that `edit` changes before they are read; it is given their folder.
+    /// `edit` changes the sources before they are read; its argument is their folder.
     explicit ShaderBench(const std::function<void(const std::filesystem::path&)>& edit)
         : library_(shader::SourceTree(sources(edit))) {}
 
-    /// One invocation per record. A shader reads vec4 inputs[] (binding 0) and writes vec4 outputs[] (binding 1), a
-    /// fixed number of each a record, which the shader knows.
+    /// Runs one invocation per record. A shader reads vec4 inputs[] (binding 0) and writes vec4 outputs[] (binding 1),
+    /// a fixed number of each per record, which the shader defines.
     std::vector<glm::vec4> run(const std::string& file, const shader::Defines& defines,
                                const std::vector<glm::vec4>& inputs, std::size_t records,
                                std::size_t outputsPerRecord) {

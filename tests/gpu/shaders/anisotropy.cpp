@@ -1,4 +1,4 @@
-// The lobe with two alphas: the shader's own terms at fp32 against double, and against theory.
+// The lobe with two alphas: the shader's terms at fp32 compared with double, and with theory.
 #include <gtest/gtest.h>
 
 #include "tests/gpu/shaders/LobeBench.h"
@@ -14,11 +14,11 @@ using test::TermsCase;
 
 class Anisotropy : public test::LobeTest {
 protected:
-    /// Half vectors of a lobe with two alphas: the isotropic ones of alpha 1 with their slopes stretched. `weight` is
-    /// the solid angle of each.
+    /// Half vectors of a lobe with two alphas: the isotropic ones of alpha 1 with stretched slopes. `weight` is the
+    /// solid angle of each.
     static std::vector<test::HalfVector> halfVectors(const glm::dvec2& alpha, int psiSteps, int phiSteps) {
         std::vector<test::HalfVector> result;
-        // Both halves of the turn, as forHalfVectors visits one.
+        // Both halves of the turn; forHalfVectors() visits one.
         for (const double side : {1.0, -1.0}) {
             test::forHalfVectors(1.0, psiSteps, phiSteps, [&](const test::HalfVector& unit) {
                 const glm::dvec2 slope = glm::dvec2(unit.h.x, side * unit.h.y) / unit.h.z * alpha;
@@ -33,7 +33,7 @@ protected:
 };
 
 constexpr glm::vec2 kAlphas[] = {{0.5f, 0.5f}, {0.1f, 0.6f}, {0.9f, 0.02f}, {0.005f, 0.3f}, {1.0f, 0.2f}};
-// The midpoint rule's own error at these steps (furnace.cpp).
+// Steps of the midpoint rule, whose error is given in furnace.cpp.
 constexpr int kPsiSteps = 256;
 constexpr int kPhiSteps = 96;
 
@@ -77,7 +77,7 @@ TEST_F(Anisotropy, theWeakWhiteFurnaceOfDirectionalMaskingIsOneOverTheSphere) {
                     const double dl = 4.0 * std::max(glm::dot(v, halves[i].h), 0.0) * halves[i].weight;
                     sum += double(found[i].anisotropicD) / (2.0 * (mu + double(found[i].smithLength))) * dl;
                 }
-                // The clamp at v.h = 0 cuts the lobe across the grid, more of it at low mu: a few steps of 1/256
+                // The clamp at v.h = 0 cuts the lobe between grid points, more of it at low mu: a few steps of 1/256
                 // squared.
                 EXPECT_NEAR(sum, 1.0, 3e-4) << alpha.x << " " << alpha.y << " mu " << mu << " turn " << turn;
             }
@@ -129,7 +129,7 @@ TEST_F(Anisotropy, aSurfaceOfEqualAlphasReflectsLikeTheIsotropicModel) {
     const std::vector<LobeResult> results = run(cases);
     for (std::size_t i = 0; i < cases.size(); i += 2) {
         const double anisotropic = double(results[i].brdfCosine.x), isotropic = double(results[i + 1].brdfCosine.x);
-        // 1e-6 of the terms, which D's square doubles; 1e-6 of where light grazes.
+        // 1e-6 of the terms, doubled by the square in D; 1e-6 absolute where light grazes.
         ASSERT_NEAR(anisotropic, isotropic, 4e-6 * isotropic + 1e-6) << i;
     }
 }
@@ -159,8 +159,8 @@ TEST_F(Anisotropy, theDistributionKeepsItsDigitsAtSmallAlpha) {
     double worst = 0.0;
     for (std::size_t i = 0; i < cases.size(); ++i)
         worst = std::max(worst, std::abs(double(found[i].anisotropicD) / expected[i] - 1.0));
-    // As the isotropic form at alpha 0.01: n x h cancels to about alpha, so fp32 leaves 6e-8 / alpha of it; where the
-    // other alpha is large, components of that size meet the small alpha.
+    // Like the isotropic form at alpha 0.01: n x h cancels to about alpha, so its relative error in fp32 is 6e-8 /
+    // alpha. Where the other alpha is large, components of that size are divided by the small alpha.
     EXPECT_LE(worst, 1e-4);
 }
 
@@ -169,7 +169,7 @@ TEST_F(Anisotropy, aMicrofacetAlongTheNormalHasTheMeanAlpha) {
     TermsCase c;
     c.alpha = {0.2f, 0.8f};
     EXPECT_NEAR(terms({c}).front().alphaAlong, mean, 1e-7);
-    // As near as fp32 can say it; the squares of these have left its range.
+    // Nearly along the normal, as far as fp32 can represent it: the squares of these components underflow.
     for (const float tiny : {1e-16f, 1e-22f, 1e-30f, 1e-38f}) {
         c.h = {tiny, 0.0f, 1.0f};
         EXPECT_NEAR(terms({c}).front().alphaAlong, mean, 1e-7) << tiny;

@@ -1,5 +1,5 @@
-// The share of a lobe that an area light fills, of lights of any width and from the places where outlines change,
-// against integrals over their surfaces in double.
+// The fraction of a lobe that an area light covers, for lights of any width and where outlines change, compared with
+// integrals over their surfaces in double.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -17,7 +17,7 @@ namespace {
 using scenes::LightType;
 using namespace test;
 
-/// Hollowed outlines: a square without one of its quarters, and one with a notch from below.
+/// Concave outlines: a square without one of its quarters, and one with a notch from below.
 const std::vector<glm::vec2> kEll{{-1, -1}, {1, -1}, {1, 0}, {0, 0}, {0, 1}, {-1, 1}};
 const std::vector<glm::vec2> kBridge{{-1, -1},   {-0.5f, -1}, {-0.5f, 0.5f}, {0.5f, 0.5f},
                                      {0.5f, -1}, {1, -1},     {1, 1},        {-1, 1}};
@@ -38,7 +38,7 @@ private:
     test::ShaderBench bench_;
 };
 
-/// Corners rounded to 1e-7 of the distance made strips of 1e-6 wrong by 4 %.
+/// Earlier fault: corners rounded to 1e-7 of the distance made strips of 1e-6 wrong by 4 %.
 TEST_F(AreaShares, narrowLightsKeepTheirDigits) {
     std::vector<SeenShape> shapes;
     for (double width = 1e-6; width < 1.5e-2; width *= 2.15)
@@ -60,7 +60,7 @@ TEST_F(AreaShares, narrowLightsKeepTheirDigits) {
         for (std::size_t i = 0; i < shapes.size(); ++i) {
             const SeenShape& shape = shapes[i];
             const double truth = shareByQuadrature(shape, matrix);
-            // Where lines and places begin, at 2e-3; elsewhere within 2e-5.
+            // Near 2e-3 of the distance, where lights become lines and points; elsewhere within 2e-5.
             EXPECT_NEAR(shares[i] / truth, 1.0, 4e-4)
                 << scenes::infoOf(shape.type).name << ", " << glm::length(shape.first) << " x "
                 << std::max(shape.radius, glm::length(shape.second)) << ", lobe " << &matrix - kCosineMatrices.data();
@@ -68,7 +68,7 @@ TEST_F(AreaShares, narrowLightsKeepTheirDigits) {
     }
 }
 
-/// From near to far at a small angle, where most of their light comes from their near ends.
+/// Lights that extend from near to far at a small angle, where most of their light comes from the near end.
 TEST_F(AreaShares, narrowLightsThatRunAwayFromThePointKeepTheirDigits) {
     std::vector<SeenShape> shapes;
     for (const double height : {0.01, 0.03, 0.05})
@@ -86,7 +86,7 @@ TEST_F(AreaShares, narrowLightsThatRunAwayFromThePointKeepTheirDigits) {
             << scenes::infoOf(shapes[i].type).name << " " << i / 2;
 }
 
-/// Beside the rectangle, which is a line from 2e-3 on.
+/// Compared with the rectangle, which is treated as a line below 2e-3 of its distance.
 TEST_F(AreaShares, aNarrowPolygonIsRightToItsDistanceOverItsWidth) {
     for (const double width : {2e-5, 2e-4, 2e-3, 2e-2}) {
         std::vector<SeenShape> rectangles, polygons;
@@ -107,7 +107,7 @@ TEST_F(AreaShares, aNarrowPolygonIsRightToItsDistanceOverItsWidth) {
     }
 }
 
-/// The part of a shape's plane between two places, in parts of its vectors.
+/// The part of a shape's plane between two positions in units of its vectors, as a rectangle.
 SeenShape rectangleWithin(const SeenShape& shape, const glm::dvec2& least, const glm::dvec2& most) {
     SeenShape part = shape;
     const glm::dvec2 middle = 0.5 * (least + most), half = 0.5 * (most - least);
@@ -119,7 +119,7 @@ SeenShape rectangleWithin(const SeenShape& shape, const glm::dvec2& least, const
     return part;
 }
 
-/// Of a pair of sides at right angles, anywhere about the point and above or across its horizon.
+/// A polygon with perpendicular vectors, anywhere around the point and above or across its horizon.
 SeenShape randomPolygon(test::Random& random, const std::vector<glm::vec2>& corners) {
     SeenShape shape;
     shape.type = LightType::Polygon;
@@ -132,7 +132,7 @@ SeenShape randomPolygon(test::Random& random, const std::vector<glm::vec2>& corn
     return shape;
 }
 
-/// Above the horizon and across it, seen from either side, where the horizon leaves one piece, two or none.
+/// Polygons above the horizon and across it, from either side, of which the horizon leaves one piece, two or none.
 TEST_F(AreaShares, aHollowedPolygonIsTheSumOfItsParts) {
     using Part = std::pair<glm::dvec2, glm::dvec2>;
     const std::pair<std::vector<glm::vec2>, std::vector<Part>> cases[] = {
@@ -144,7 +144,7 @@ TEST_F(AreaShares, aHollowedPolygonIsTheSumOfItsParts) {
         std::vector<SeenShape> whole, pieces;
         for (int i = 0; i < 2000; ++i) {
             whole.push_back(randomPolygon(random, corners));
-            // However the corners are numbered.
+            // The result must not depend on the first corner.
             std::vector<glm::vec2>& turned = whole.back().corners;
             std::rotate(turned.begin(), turned.begin() + random.index(int(turned.size())), turned.end());
             for (const auto& [least, most] : parts) pieces.push_back(rectangleWithin(whole.back(), least, most));
@@ -154,7 +154,7 @@ TEST_F(AreaShares, aHollowedPolygonIsTheSumOfItsParts) {
             for (std::size_t i = 0; i < whole.size(); ++i) {
                 double sum = 0.0;
                 for (std::size_t part = 0; part < parts.size(); ++part) sum += partShares[i * parts.size() + part];
-                // Rectangles that a lobe sees from their edge are lines (narrowLightsKeepTheirDigits).
+                // Rectangles viewed edge-on by a lobe are treated as lines (narrowLightsKeepTheirDigits).
                 EXPECT_NEAR(shares[i], sum, 1e-5 + 4e-4 * sum)
                     << corners.size() << " corners, light " << i << ", lobe " << &matrix - kCosineMatrices.data();
             }
@@ -162,17 +162,17 @@ TEST_F(AreaShares, aHollowedPolygonIsTheSumOfItsParts) {
     }
 }
 
-/// Edges that are neither along nor across, against the integral over the surface.
+/// Oblique edges, compared with the integral over the surface.
 TEST_F(AreaShares, aPolygonAcrossTheHorizonIsTheIntegralOverIt) {
     const std::vector<std::vector<glm::vec2>> outlines{
         {{-0.5f, -0.7f}, {0.9f, -0.1f}, {-0.2f, 0.8f}},
-        {{-1, 0}, {0.1f, -0.4f}, {1, 0}, {0.1f, 0.9f}, {0, 0}}, // points inwards at its last corner
+        {{-1, 0}, {0.1f, -0.4f}, {1, 0}, {0.1f, 0.9f}, {0, 0}}, // concave at its last corner
         {{0.2f, 0}, {0.7f, 0.7f}, {0, 0.2f}, {-0.7f, 0.7f}, {-0.2f, 0}, {-0.7f, -0.7f}, {0, -0.2f}, {0.7f, -0.7f}}};
     test::Random random(32);
     std::vector<SeenShape> shapes;
     while (shapes.size() < 60) {
         const SeenShape shape = randomPolygon(random, outlines[shapes.size() % outlines.size()]);
-        // Quadrature needs a plane some way off.
+        // Quadrature needs a plane at some distance.
         const glm::vec3 normal = glm::normalize(glm::cross(shape.first, shape.second));
         if (std::abs(glm::dot(shape.middle, normal)) > 0.15f) shapes.push_back(shape);
     }
@@ -184,7 +184,7 @@ TEST_F(AreaShares, aPolygonAcrossTheHorizonIsTheIntegralOverIt) {
     }
 }
 
-/// A point in a notch is not within, one in a leg beside it is, and gets the lune that a whole plane fills.
+/// A point in the notch is outside. One in a leg beside it is inside, and receives the lune that a whole plane covers.
 TEST_F(AreaShares, aPointInThePlaneOfAPolygonGetsLightWithinItsCornersAlone) {
     const glm::dvec3 right(0.5, 0.0, 0.0), up(0.0, 0.3, 0.4), normal = glm::normalize(glm::cross(right, up));
     const double lune = 0.5 * (1.0 - std::abs(normal.z));
@@ -202,8 +202,8 @@ TEST_F(AreaShares, aPointInThePlaneOfAPolygonGetsLightWithinItsCornersAlone) {
         }
 }
 
-/// Along lines on which a point comes to see an end, and comes out of the cylinder's continuation, by an end's edge:
-/// there the light used to step by 1e-3.
+/// Along lines on which an end becomes visible, and on which the point leaves the cylinder's continuation past an end's
+/// edge: there the light used to jump by 1e-3.
 TEST_F(AreaShares, ofATubeNothingJumpsWhereItsOutlineChanges) {
     constexpr int kSteps = 20000;
     for (const double size : {1.0, 0.1, 0.02, 0.003})
@@ -228,7 +228,7 @@ TEST_F(AreaShares, ofATubeNothingJumpsWhereItsOutlineChanges) {
         }
 }
 
-/// A plane of light that stands slantwise on a surface fills a lune of (1 - cos) / 2, from however near before it.
+/// A plane of light oblique to a surface covers a lune of (1 - cos) / 2, however near in front of it the point is.
 TEST_F(AreaShares, aPointInThePlaneOfAFlatLightGetsLightAsOneBeforeIt) {
     const glm::dvec3 right(0.5, 0.0, 0.0), up(0.0, 0.3, 0.4), normal = glm::normalize(glm::cross(right, up));
     const double lune = 0.5 * (1.0 - std::abs(normal.z));
@@ -257,7 +257,7 @@ TEST_F(AreaShares, aPointInThePlaneOfAFlatLightGetsLightAsOneBeforeIt) {
 
 struct AreaFault {
     const char* fault;
-    const char* file; ///< below shaders/
+    const char* file; ///< relative to shaders/
     const char* from;
     const char* to;
 };
@@ -290,7 +290,7 @@ constexpr AreaFault kAreaFaults[] = {
     {"lines not cut at the horizon", "lib/light/area_light.glsl", "part.x = max(part.x, crossing)", "part.x = -1.0"},
 };
 
-/// Large and narrow lights, above the horizon and across it, of which every fault above changes some.
+/// Large and narrow lights, above the horizon and across it. Every fault above changes some of them.
 std::vector<SeenShape> faultFindingShapes() {
     const glm::vec3 high(-0.2f, 0.3f, 1.0f), low(0.7f, 0.4f, 0.1f), along(0.2f, -0.1f, 0.4f),
         across(0.3f, 0.25f, -0.1f);
@@ -303,9 +303,9 @@ std::vector<SeenShape> faultFindingShapes() {
                 shapes.push_back({LightType::Rectangle, middle, along, 0.0f, side * 1e-3f * across, isTwoSided});
             }
     shapes.push_back({LightType::Rectangle, low, -along, 0.0f, across, true});
-    // Its legs stand up from below the horizon.
+    // Its legs rise from below the horizon.
     shapes.push_back({LightType::Polygon, {0.1f, 0.8f, 0.15f}, {0.5f, 0, 0}, 0.0f, {0, 0.1f, -0.4f}, true, kBridge});
-    // So small that it counts as a place, beside its position and low over the horizon.
+    // So small that it is treated as a point, beside its position and low above the horizon.
     shapes.push_back({LightType::Polygon,
                       {0.0f, 1.0f, 0.01f},
                       {0, 0, 1e-3f},
@@ -318,7 +318,7 @@ std::vector<SeenShape> faultFindingShapes() {
     return shapes;
 }
 
-/// Absolute, or in parts of all of a light.
+/// The largest error, relative to the true fraction or to 1e-9, whichever is larger.
 double worstShareError(test::ShaderBench& bench) {
     const std::vector<SeenShape> shapes = faultFindingShapes();
     double worst = 0.0;

@@ -1,4 +1,4 @@
-// Linear values of sRGB codes, by the arithmetic of the filter "exact". In: (code, -). Out: (linear value, 0).
+// Decodes sRGB codes by the arithmetic of the filter "exact". In: (code, -). Out: (linear value, 0).
 #include "lib/material/texture_filter.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// Normals of triangles as they are stored. In: (unit normal, -). Out: (stored normal, -).
+// Encodes and decodes normals of triangles. In: (unit normal, -). Out: (stored normal, -).
 #include "lib/surface/facet.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// Energy and normalisation of the microfacet terms: the shader's own D and V at fp32, summed in double.
+// Energy and normalisation of the microfacet terms: the shader's D and V at fp32, summed in double.
 #include <gtest/gtest.h>
 
 #include "shaders/shared/models.h"
@@ -10,8 +10,8 @@ namespace {
 
 constexpr int kFurnacePsiSteps = 384;
 constexpr int kFurnacePhiSteps = 96;
-// The midpoint rule's own error at these steps, measured against 4 times as many: 1.0e-4 where mu = 0.02 and grazing
-// half vectors cut the lobe, below 2e-5 from mu = 0.1 on.
+// The midpoint rule's error at these steps, measured against 4 times as many: 1.0e-4 where mu = 0.02 and grazing half
+// vectors cut the lobe, below 2e-5 from mu = 0.1 on.
 constexpr double kQuadrature = 2e-5;
 constexpr double kQuadratureGrazing = 2e-4;
 
@@ -59,8 +59,8 @@ protected:
 };
 
 TEST_F(FurnaceTest, theDistributionIntegratesToOne) {
-    // fp32 D is right to 1e-4 at alpha 0.002 and to twice that at the floor 0.001; its errors have both signs and
-    // average out.
+    // fp32 D is accurate to 1e-4 at alpha 0.002 and to twice that at the minimum of 0.001; its errors have both signs
+    // and average out.
     for (const double alpha : {0.001, 0.002, 0.01, 0.05, 0.3, 1.0})
         EXPECT_NEAR(furnace(0.5, alpha).normalisation, 1.0, kQuadrature) << "alpha " << alpha;
 }
@@ -93,15 +93,15 @@ TEST_F(FurnaceTest, correlatedEnergyIsExactlyTheTabulatedOne) {
                                       {.9973, .9882, .9158, .6879, .4639, .3069}};
     for (std::size_t m = 0; m < 5; ++m) {
         for (std::size_t a = 0; a < 6; ++a) {
-            // The table is given to 2e-4.
+            // The table is accurate to 2e-4.
             EXPECT_NEAR(furnace(kMu[m], kAlpha[a]).correlated, kEnergy[m][a], 2e-4 + kQuadrature)
                 << "mu " << kMu[m] << " alpha " << kAlpha[a];
         }
     }
 }
 
-/// Both sums of the split-sum approximation: A weighs F0, B is Schlick's second term. F is the shader's too; with F0 =
-/// 0 it is (1 - v.h)^5.
+/// Both sums of the split-sum approximation: A weights F0, B is Schlick's second term. F comes from the shader too;
+/// with F0 = 0 it is (1 - v.h)^5.
 TEST_F(FurnaceTest, splitSumsAreExactlyThoseOfTheTable) {
     constexpr double kMu[] = {0.1, 0.5, 1.0};
     constexpr double kRoughness[] = {0.25, 0.5, 0.75, 1.0};
@@ -131,7 +131,7 @@ TEST_F(FurnaceTest, splitSumsAreExactlyThoseOfTheTable) {
                 a += t.x * t.z * (1.0 - fresnel) * weight[i];
                 b += t.x * t.z * fresnel * weight[i];
             }
-            // The table's last digit, and the rule's own error.
+            // The table's last digit, and the rule's error.
             EXPECT_NEAR(a, kA[m][r], 3e-4) << "mu " << mu << " roughness " << kRoughness[r];
             EXPECT_NEAR(b, kB[m][r], 3e-4) << "mu " << mu << " roughness " << kRoughness[r];
         }
@@ -149,7 +149,7 @@ TEST_F(FurnaceTest, atAlphaOneBothFormsAreExactlyTheirClosedForms) {
 using WhiteFurnace = test::LobeTest;
 
 TEST_F(WhiteFurnace, aWhiteMetalNeverReflectsMoreThanArrivesAndExactlyItsClosedFormAtAlphaOne) {
-    // The whole path, directions in and radiance out: base colour 1, metallic 1, so F = 1 and no diffuse part.
+    // The whole computation, from directions to radiance: base colour 1, metallic 1, so F = 1 and no diffuse part.
     for (const double mu : {0.1, 0.5, 0.9}) {
         for (const double alpha : {0.05, 0.3, 1.0}) {
             const glm::dvec3 v(std::sqrt(1.0 - mu * mu), 0.0, mu);

@@ -1,4 +1,4 @@
-// D of a light and a viewer. In: (n, alpha), (l, 0), (v, 0). Out: (D, |l + v|, 0, 0).
+// D for directions to a light and a viewer. In: (n, alpha), (l, 0), (v, 0). Out: (D, |l + v|, 0, 0).
 #include "lib/reflectance/brdf.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// What lights send to points: the packed lights of the product, read by the product's shader, against the formulas in
+// Irradiance from lights: the product's packed lights, read by the product's shader, compared with the formulas in
 // double.
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ struct Probe {
 
 class IncidentTest : public test::GlTest {
 protected:
-    /// The eye is the world's origin and looks along -z, so world and lighting space are one.
+    /// The eye is the world's origin and looks along -z, so world and lighting space coincide.
     std::vector<Arrival> run(const std::vector<Light>& sceneLights, const std::vector<Probe>& probes,
                              double rangeTolerance = 0.0) {
         scenes::Scene scene;
@@ -55,7 +55,7 @@ bool isFinite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// shading.md section 2, with the scene's own numbers.
+/// shading.md section 2, with the scene's values.
 double expectedIrradiance(const Light& light, const glm::dvec3& position) {
     if (light.type == LightType::Directional) return light.intensity;
     const glm::dvec3 toLight = light.positionWS - position;
@@ -78,10 +78,10 @@ double expectedIrradiance(const Light& light, const glm::dvec3& position) {
     return double(light.intensity) * falloff * cone * cone;
 }
 
-/// What expectedIrradiance() may be off by: 3e-6, twenty roundings, of the light without its range, which subtracts
-/// from one; and the change of its cone when the angle at the light is off by four roundings of fp32 (the ray to the
-/// light is rounded twice, the packed axis once, and each in three components), and the distances of the two cosines
-/// from 1, or of a wide cone from -1, by four of their own.
+/// Tolerance of expectedIrradiance(): 3e-6, twenty roundings, of the light without its range window, which subtracts
+/// from one; and the change of its cone if the angle at the light is off by four roundings of fp32 (the ray to the
+/// light is rounded twice, the packed axis once, each in three components), and the distances of the two cosines from
+/// 1, or of a wide cone from -1, by four as well.
 double allowedError(Light light, const glm::dvec3& position) {
     light.rangeMetres = scenes::kInfinity;
     const double windowed = expectedIrradiance(light, position);
@@ -103,7 +103,7 @@ Light randomLight(test::Random& random) {
     light.type = std::array{LightType::Directional, LightType::Point, LightType::Spot}[std::size_t(random.index(3))];
     light.falloff = random.index(2) == 0 ? Falloff::InverseSquare : Falloff::Attenuation;
     light.intensity = float(random.logarithmic(0.01, 100.0));
-    // Exact in fp32, so that the packed position is the scene's.
+    // Exact in fp32, so that the packed position equals the scene's.
     light.positionWS = glm::dvec3(glm::vec3(random.direction() * 10.0));
     light.directionWS = random.direction();
     light.rangeMetres = random.index(3) == 0 ? scenes::kInfinity : float(random.between(5.0, 30.0));
@@ -138,7 +138,7 @@ TEST_F(IncidentTest, theIrradianceOfEveryKindOfLightFollowsItsFormula) {
     EXPECT_GT(reached, 5000);
 }
 
-/// Of random directions, looked into everywhere from their middles to just outside.
+/// Cones in random directions, with probes from their axes to just outside.
 TEST_F(IncidentTest, aConeHoweverNarrowWideOrHardKeepsItsDigits) {
     test::Random random(12);
     std::vector<Light> lights;
@@ -190,7 +190,7 @@ TEST_F(IncidentTest, atItsRangeAndBeyondALightIsExactlyZero) {
         position[axis] = light.rangeMetres; // along an axis the distance is the range to the last bit
         if (i % 3 == 1) position[axis] = -std::nextafter(light.rangeMetres, scenes::kInfinity);
         if (i % 3 == 2) {
-            // Any direction, a distance that fp32 rounds to at least the range.
+            // Any direction, at a distance that fp32 rounds to at least the range.
             position = glm::vec3(random.direction() * (double(light.rangeMetres) * (1.0 + 2e-7)));
         }
         probes.push_back({position, i});
@@ -219,7 +219,7 @@ TEST_F(IncidentTest, aLightThatAToleranceEndsIsExactlyZeroAtItsReachAndBeyond) {
         if (i % 2 == 1) place = std::nextafter(place, scenes::kInfinity);
         glm::vec3 position(0.0f);
         position[random.index(3)] = i % 4 < 2 ? place : -place;
-        // Any direction, a distance that fp32 rounds to at least the reach; or well inside, where light arrives.
+        // Any direction, at a distance that fp32 rounds to at least the radius; or well inside, where light arrives.
         if (i % 3 == 1) position = glm::vec3(random.direction() * (reach * (1.0 + 2e-7)));
         if (i % 3 == 2) position = glm::vec3(random.around({0, 0, -1}, 0.0, 1.0) * (reach * random.between(0.1, 0.9)));
         probes.push_back({position, i});

@@ -1,4 +1,4 @@
-// Coat and sheen: their own terms, and how they lie over the rest of a material.
+// Coat and sheen: their terms, and how they are layered over the rest of a material.
 #include <gtest/gtest.h>
 
 #include "tests/gpu/shaders/LobeBench.h"
@@ -32,8 +32,8 @@ double sheenLobe(const glm::dvec3& l, const glm::dvec3& v, double alpha) {
     return charlie(sine, alpha) / ((1.0 + charlieLambda(l.z, alpha) + charlieLambda(v.z, alpha)) * 4.0 * l.z * v.z);
 }
 
-/// Visits light directions of the hemisphere with their solid angles, the midpoint rule in both angles. All integrands
-/// here are even in phi.
+/// Visits light directions of the hemisphere with their solid angles, by the midpoint rule in both angles. All
+/// integrands here are even in phi.
 template <typename Visit>
 void forLights(int steps, const Visit& visit) {
     for (int i = 0; i < steps; ++i) {
@@ -73,7 +73,7 @@ TEST_F(Sheen, theDistributionOfHairsIntegratesToOne) {
             sum += double(found[std::size_t(i)].charlieD) * std::cos(theta) * std::sin(theta) * 2.0 * test::pi *
                    (0.5 * test::pi / kSteps);
         }
-        EXPECT_NEAR(sum, 1.0, 1e-5) << alpha; // fp32 terms of either sign of error, and a midpoint rule of 4096 steps
+        EXPECT_NEAR(sum, 1.0, 1e-5) << alpha; // fp32 errors of either sign, and a midpoint rule of 4096 steps
     }
 }
 
@@ -90,10 +90,9 @@ TEST_F(Sheen, theTermsAreTheSources) {
     const std::vector<LobeTerms> found = terms(cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double alpha = double(cases[i].alpha.x), x = double(cases[i].cosine);
-        const glm::dvec3 h = glm::normalize(glm::dvec3(cases[i].h)); // the exponent would multiply its rounding
+        const glm::dvec3 h = glm::normalize(glm::dvec3(cases[i].h)); // the exponent would amplify its rounding
         const double d = charlie(std::sqrt(h.x * h.x + h.y * h.y), alpha);
-        // The exponent 1 / alpha, up to 1000, multiplies the rounding of the logarithm, which grows as the lobe
-        // darkens.
+        // The exponent 1 / alpha, up to 1000, amplifies the rounding of the logarithm, which grows as the lobe darkens.
         ASSERT_NEAR(found[i].charlieD, d, 1e-5 * d + 1e-6 * charlie(1.0, alpha)) << "alpha " << alpha << " z " << h.z;
         const double v = 1.0 / ((1.0 + 2.0 * charlieLambda(x, alpha)) * 4.0 * x * x);
         // exp of up to 13 for these cosines: 13 roundings of 6e-8 and those of the fit.
@@ -109,7 +108,7 @@ TEST_F(Sheen, theFittedAlbedoIsNearTheIntegral) {
             TermsCase c;
             c.alpha = glm::vec2(float(alpha));
             c.cosine = float(mu);
-            // Where the lobe gains energy, as it does at grazing angles for small alpha, all below it goes.
+            // Where the lobe gains energy, as at grazing angles for small alpha, no light reaches the layers below.
             const double integral = std::min(1.0, sheenEnergy(mu, alpha, 256));
             const double error = std::abs(double(terms({c}).front().sheenAlbedo) - integral);
             EXPECT_LE(error, 0.035) << "roughness " << roughness << " mu " << mu; // the fit's error, measured
@@ -140,7 +139,7 @@ TEST_F(Sheen, clothNeverReflectsMoreThanArrivesUnlessItsHairsAreNearlyUpright) {
             const std::vector<LobeResult> results = run(cases);
             glm::dvec3 energy(0.0);
             for (std::size_t i = 0; i < weight.size(); ++i) energy += glm::dvec3(results[i].brdfCosine) * weight[i];
-            // The fit's error, by which the layers below are scaled.
+            // The error of the fit that scales the layers below.
             EXPECT_LE(energy.x, 1.0 + 0.035) << "roughness " << roughness << " mu " << mu;
             EXPECT_LT(energy.z, energy.x);
             EXPECT_LT(energy.z, energy.y) << "less sheen, less light: what lies below is darkened for all alike";
@@ -194,8 +193,8 @@ TEST_F(Clearcoat, aCoatLiesOverTheMaterialAsTheExtensionSays) {
         }
         const double fresnel = 0.04 + 0.96 * std::pow(1.0 - std::abs(nv), 5.0), weight = double(c.coatFactor) * fresnel;
         const double expected = double(results[i + 1].brdfCosine.y) * (1.0 - weight) + weight * lobe;
-        // The coat's normal is stored in fp32 octahedral form, off by 1e-7, which the lobe's slope multiplies by
-        // 1/alpha.
+        // The coat's normal is stored in fp32 octahedral form with an error of 1e-7, which the lobe's slope multiplies
+        // by 1/alpha.
         ASSERT_NEAR(results[i].brdfCosine.y, expected, 3e-5 * expected + 1e-6) << i;
     }
 }
@@ -204,7 +203,7 @@ TEST_F(Clearcoat, aCoatIsLitByItsOwnNormal) {
     LobeCase c;
     c.coatFactor = 1.0f;
     c.coatAlpha = 0.2f;
-    c.l = glm::normalize(glm::vec3(0.9f, 0.0f, -0.1f)); // behind the surface, before its coat
+    c.l = glm::normalize(glm::vec3(0.9f, 0.0f, -0.1f)); // behind the surface, in front of its coat
     c.v = glm::normalize(glm::vec3(0.3f, 0.0f, 1.0f));
     c.coatNormal = glm::normalize(c.l + c.v);
     EXPECT_GT(run(c).brdfCosine.x, 0.0f);

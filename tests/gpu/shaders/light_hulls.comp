@@ -1,5 +1,5 @@
-// The hulls of spot lights. In: (apex, reach), (axis, cosine of the outer angle), (margin, -). Out: the clip coordinates of all
-// corners, then (how much larger a light of this place and reach is drawn, 1 where it is vast in the picture, -).
+// Hulls of spot lights. In: (apex, radius), (axis, cosine of the outer angle), (margin, -). Out: clip coordinates of
+// all corners, then (margin with which a light of this position and radius is drawn, 1 if it is vast in the image, -).
 #include "lib/light/light_volume.glsl"
 
 layout(local_size_x = 64) in;

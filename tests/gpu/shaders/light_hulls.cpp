@@ -1,4 +1,4 @@
-// The proxy volumes of lights as geometry: closed, around all that the light can change, and not much larger.
+// The proxy volumes of lights as geometry: closed, around all that the light can affect, and not much larger.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,8 +24,8 @@ struct Spot {
     float margin = 0.0f;
 };
 struct Volume {
-    std::vector<glm::vec3> corners; ///< three a triangle
-    float margin;                   ///< that the light would be drawn with
+    std::vector<glm::vec3> corners; ///< three per triangle
+    float margin;                   ///< with which the light would be drawn
     bool vast;
 };
 
@@ -33,7 +33,7 @@ class LightHulls : public test::GlTest {
 protected:
     LightHulls() {
         view_ = {};
-        // x, y and w of clip coordinates are the position, so that all of it can be read.
+        // Copies the position to x, y and w of the clip coordinates, so that all of it can be read.
         view_.clipFromLS = glm::mat4(glm::vec4(1, 0, 0, 0), glm::vec4(0, 1, 0, 0), glm::vec4(0, 0, 0, 1), glm::vec4(0));
         view_.forwardLS = {0, 0, -1, 1};
         view_.aheadFromDepth = {10, -10, 1, 0};
@@ -80,7 +80,7 @@ protected:
     test::ShaderBench bench_;
 };
 
-/// Points on the outline of the light, whose convex hull with its apex is all of it.
+/// Points on the light's outline, including the apex; their convex hull is the lit volume.
 std::vector<glm::dvec3> outline(const Spot& spot) {
     std::vector<glm::dvec3> points{glm::dvec3(spot.apex)};
     const glm::dvec3 axis = glm::normalize(glm::dvec3(spot.axis));
@@ -107,7 +107,7 @@ TEST_F(LightHulls, theHullOfASpotIsClosed) {
     for (std::size_t i = 0; i < spots.size(); ++i) {
         SCOPED_TRACE(i);
         using Corner = std::array<float, 3>;
-        std::map<std::pair<Corner, Corner>, int> edges; // how often each is run along this way
+        std::map<std::pair<Corner, Corner>, int> edges; // number of triangles along each directed edge
         const std::vector<glm::vec3>& corners = drawn[i].corners;
         for (std::size_t c = 0; c < corners.size(); ++c) {
             const glm::vec3 &from = corners[c], &to = corners[c - c % 3 + (c + 1) % 3];
@@ -135,7 +135,7 @@ TEST_F(LightHulls, theHullOfASpotHoldsItsLightAndTheMarginAroundIt) {
             const glm::dvec3 area = glm::cross(b - a, d - a), normal = glm::normalize(area);
             double nearest = 1e30;
             for (const glm::dvec3& point : points) nearest = std::min(nearest, glm::dot(a - point, normal));
-            // A corner is off by some ten roundings of fp32, which tips the plane of a narrow triangle.
+            // A corner is off by some ten roundings of fp32, which tilts the plane of a narrow triangle.
             const double height =
                 glm::length(area) / std::max({glm::length(b - a), glm::length(d - b), glm::length(a - d)});
             const double rounding = 10.0 * 0x1p-24 * (1.0 + spot.reach) * (1.0 + spot.reach / height);
@@ -149,7 +149,7 @@ TEST_F(LightHulls, theHullOfASpotHoldsItsLightAndTheMarginAroundIt) {
     EXPECT_LE(tightest, 1.001) << "no face touches what it encloses";
 }
 
-/// The figures of lib/light/light_volume.glsl.
+/// Checks the figures in lib/light/light_volume.glsl.
 TEST_F(LightHulls, theHullOfASpotIsNotMuchLargerThanItsLight) {
     std::vector<Spot> spots;
     for (const double degrees : {1.0, 10.0, 30.0, 60.0, 75.0, 84.0}) {
@@ -158,7 +158,7 @@ TEST_F(LightHulls, theHullOfASpotIsNotMuchLargerThanItsLight) {
         spot.margin = 1e-5f;
     }
     const std::vector<Volume> drawn = volumes(spots);
-    double last = 1.054; // the octagon's share
+    double last = 1.054; // area of the octagon over its circle's
     for (std::size_t i = 0; i < spots.size(); ++i) {
         double volume = 0.0;
         const std::vector<glm::vec3>& corners = drawn[i].corners;
@@ -178,10 +178,10 @@ TEST_F(LightHulls, aVolumeIsAnEighthOfAPixelLargerThanItsLight) {
     Spot small;
     small.reach = 1e-3f;
     small.cosOuter = 0.9f;
-    // An eighth is promised, and 1 % more is not; lengths of a millimetre round by some 1e-8 m.
+    // The margin is an eighth of a pixel, and less than 1 % more; lengths of a millimetre round by some 1e-8 m.
     EXPECT_NEAR(volumes({small})[0].margin, 0.125 * 0.02, 1e-6 + 1e-3 * 0.125 * 0.02);
     view_.forwardLS.w = 0.0f;
-    view_.eyeLS = {0, 0, 50, 50}; // a pixel of the lens is that wide a metre ahead of the eye
+    view_.eyeLS = {0, 0, 50, 50}; // a pixel is that wide a metre ahead of the eye
     EXPECT_NEAR(volumes({small})[0].margin, 0.125 * 0.02 * 50.0, 1e-3 * 0.125 * 0.02 * 50.0);
 }
 

@@ -1,4 +1,4 @@
-// What layeredBrdfCosine and specularTerms do at the edges of their domain.
+// layeredBrdfCosine and specularTerms at the edges of their domain.
 #include <gtest/gtest.h>
 
 #include "tests/gpu/shaders/LobeBench.h"
@@ -28,7 +28,7 @@ TEST_F(LimitsTest, aBlackMicrofacetSurfaceReflectsExactlyItsSpecularTerms) {
 
 TEST_F(LimitsTest, specularIsExactlyZeroWhereItsDirectionsHaveNoLobe) {
     const glm::vec3 up(0, 0, 1), side(1, 0, 0), slant(0.6f, 0.0f, 0.8f), below(0.6f, 0.0f, -0.8f);
-    // Both above the horizon, by less than fp32 can square.
+    // Both above the horizon, by a cosine whose square underflows in fp32.
     const glm::vec3 hair(1.0f, 0.0f, 1e-25f), hairOpposite(-1.0f, 0.0f, 1e-25f);
     for (const unsigned model :
          {unsigned(scenes::MaterialModel::Microfacet), unsigned(scenes::MaterialModel::MetallicRoughness)}) {
@@ -56,7 +56,7 @@ TEST_F(LimitsTest, specularIsExactlyZeroWhereItsDirectionsHaveNoLobe) {
                     EXPECT_EQ(results[i].brdfCosine, glm::vec3(0.0f));
                 }
             }
-            // Diffuse needs only n.l > 0: straight light seen from the horizon.
+            // Diffuse reflection needs only n.l > 0: light along the normal, viewed from the horizon.
             EXPECT_GT(results[1].brdfCosine.x, 0.0f);
         }
     }

@@ -1,5 +1,5 @@
-// The boxes of tiles whose depth is cut into slices (method tile_2.5d). In: slicing, the tile's occupied slices, -.
-// Whole groups of 64 inputs. Out: for each box the metres ahead at which it begins and ends, -1 where there is none.
+// The boxes of tiles whose depth is divided into slices (method tile_2.5d). In: slicing, the tile's occupied slices, -,
+// in whole groups of 64. Out: begin and end of each box in metres ahead, -1 if there is none.
 #include "lib/lists/list_cells.glsl"
 
 layout(std430, binding = 1) readonly buffer Inputs { uvec4 inputs[]; };

@@ -1,5 +1,4 @@
-// Steps that build light lists on the GPU, on chosen numbers: cases for which no picture of a test is large or deep
-// enough for.
+// Steps that build light lists on the GPU, on chosen numbers: cases for which no test's image is large or deep enough.
 #include <bit>
 
 #include <gtest/gtest.h>
@@ -13,7 +12,7 @@
 namespace tessera {
 namespace {
 
-/// Eight slices to an octave of depth have 2^20 keys each, and 64 lie between 2^-8 and 1.
+/// Eight slices per octave of depth have 2^20 keys each, and 64 lie between 2^-8 and 1.
 constexpr std::uint32_t kShiftOfAnEighth = 20;
 
 class ListSteps : public test::GlTest {
@@ -30,7 +29,7 @@ protected:
                 {"HAS_TRANSPARENT_LAYER", "0"}};
     }
 
-    /// What the scan writes as its totals, of a row of tiles; 64 lanes share them.
+    /// The totals that the scan writes for a row of tiles, divided among 64 lanes.
     glm::uvec4 scanned(const char* method, std::uint32_t storage, const gpu::Buffer& ofTiles, std::size_t tiles) {
         lighting_.tileGrid = {std::uint32_t(tiles), 1u, 0u, 0u};
         const gpu::Program& program =
@@ -55,7 +54,7 @@ protected:
 
 TEST_F(ListSteps, firstsAndTotalsAreTheSumsOfTheTilesBeforeBeyondThirtyTwoBits) {
     test::Random random(1);
-    lighting_.lights.z = 3; // reach everywhere, so their entries come first
+    lighting_.lights.z = 3; // lights of unlimited range, whose entries come first
     for (const std::size_t tiles : {1, 63, 64, 65, 1000}) {
         SCOPED_TRACE(tiles);
         std::vector<glm::uvec2> counts;
@@ -75,7 +74,7 @@ TEST_F(ListSteps, firstsAndTotalsAreTheSumsOfTheTilesBeforeBeyondThirtyTwoBits) 
     }
 }
 
-/// A tile in front of all others and one behind them, each at every place.
+/// One tile in front of all others and one behind them, each at every position.
 TEST_F(ListSteps, binsReachFromTheFarthestToTheNearestTileWhereverTheyAre) {
     constexpr std::size_t kTiles = 130; // three for some lanes, two for the others
     const auto key = [&](float depth) { return std::bit_cast<std::uint32_t>(view_.depthKey.x + depth); };
@@ -85,8 +84,8 @@ TEST_F(ListSteps, binsReachFromTheFarthestToTheNearestTileWhereverTheyAre) {
     };
     for (std::size_t i = 0; i < kTiles; ++i) {
         SCOPED_TRACE(i);
-        std::vector<glm::vec2> depths(kTiles, glm::vec2(2e-5f)); // thousands of near planes ahead
-        depths[(i + 7) % kTiles] = glm::vec2(0.0f);              // shows no surface
+        std::vector<glm::vec2> depths(kTiles, glm::vec2(2e-5f)); // thousands of near-plane distances ahead
+        depths[(i + 7) % kTiles] = glm::vec2(0.0f);              // no surface
         depths[i] = {5e-3f, 2e-3f};
         depths[(i + 1) % kTiles] = {1e-5f, 2e-6f};
         EXPECT_EQ(scanned("LIST_METHOD_ZBIN", STORAGE_TILE_DEPTHS, gpu::Buffer::of("depths", depths), kTiles),
@@ -103,7 +102,7 @@ TEST_F(ListSteps, everyRunOfNeighbouringSlicesIsOneBoxFromItsNearestToItsFarthes
                                      0xaaaaaaaaaaaaaaaaull};
     for (int i = 0; i < 64; ++i) tiles.push_back(std::uint64_t(1) << i);
     for (int i = 0; i < 500; ++i) {
-        std::uint64_t slices = 0; // runs of some length
+        std::uint64_t slices = 0; // runs of random length
         bool occupied = false;
         for (int bit = 0; bit < 64; ++bit) {
             occupied ^= random.index(3) == 0;
@@ -116,7 +115,7 @@ TEST_F(ListSteps, everyRunOfNeighbouringSlicesIsOneBoxFromItsNearestToItsFarthes
     std::vector<glm::uvec4> inputs;
     for (const std::uint64_t slices : tiles)
         inputs.emplace_back(slicing, std::uint32_t(slices), std::uint32_t(slices >> 32), 0u);
-    inputs.resize((inputs.size() + 63) / 64 * 64, glm::uvec4(slicing, 0u, 0u, 0u)); // whole groups
+    inputs.resize((inputs.size() + 63) / 64 * 64, glm::uvec4(slicing, 0u, 0u, 0u)); // pads to whole groups
 
     const gpu::Program& program =
         bench_.programs().get({"runs", "", "", "test/list_runs.comp", definesOf("LIST_METHOD_SLICES", 1)});
@@ -143,7 +142,7 @@ TEST_F(ListSteps, everyRunOfNeighbouringSlicesIsOneBoxFromItsNearestToItsFarthes
             while (occupied(last + 1)) ++last;
             const glm::vec2 depths = shared::depthsOfSlices(slicing, first, last, view_.depthKey.x);
             const auto ahead = [&](float depth) { return shared::aheadMetres(view_.aheadFromDepth, depth); };
-            // The same few operations, but GLSL lets a division be off by 2.5 units in the last place (4.7.1).
+            // The same operations, but GLSL lets a division be off by 2.5 units in the last place (4.7.1).
             const glm::vec2 wanted(ahead(depths.y), ahead(depths.x));
             EXPECT_NEAR(runs[box].x, wanted.x, 1e-6f * wanted.x) << "slices " << first << " to " << last;
             EXPECT_NEAR(runs[box].y, wanted.y, 1e-6f * wanted.y) << "slices " << first << " to " << last;

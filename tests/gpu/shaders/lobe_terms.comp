@@ -1,7 +1,7 @@
-// Single terms of the lobes that have a direction, an exponent or hairs. In: (n, alpha along the tangent),
-// (h, alpha along the bitangent), (tangent, exponent), (direction, cosine).
-// Out: (anisotropic D, isotropic D, Smith length of the direction, alpha along h),
-// (Blinn-Phong's highlight, Charlie's D, Charlie's V for n.l = n.v = cosine, albedo of a white sheen at the cosine).
+// Single terms of the lobes with a direction, an exponent or fibres. In: (n, alpha along the tangent), (h, alpha along
+// the bitangent), (tangent, exponent), (direction, cosine).
+// Out: (anisotropic D, isotropic D, Smith length of the direction, alpha along h), (Blinn-Phong's highlight, Charlie's
+// D, Charlie's V for n.l = n.v = cosine, albedo of a white sheen at the cosine).
 #include "lib/reflectance/sheen.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,7 +1,7 @@
-// One light direction on one surface of any model and layers. In: (albedo, metallic), (normal, alpha), (specular, ior or F90),
-// (l, model), (v, exponent), (tangent, alpha along the bitangent), (coat normal, factor), (sheen colour, alpha),
+// One light direction on a surface of any model and layers. In: (albedo, metallic), (normal, alpha), (specular, ior or
+// F90), (l, model), (v, exponent), (tangent, alpha along the bitangent), (coat normal, factor), (sheen colour, alpha),
 // (coat alpha, masking, 0, 0).
-// Out: (reflected share, n.l), (d, v, F.g, 0).
+// Out: (BRDF times cosine, n.l), (d, v, F.g, 0).
 #include "lib/reflectance/reflectance.glsl"
 
 layout(local_size_x = 64) in;

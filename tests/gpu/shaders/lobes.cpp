@@ -1,5 +1,4 @@
-// The lobes that have a direction, an exponent or fibres, and the layers: edges of their domain, and properties that
-// all models promise.
+// Lobes with a direction, an exponent or fibres, and the layers: edges of their domain, and properties of all models.
 #include <gtest/gtest.h>
 
 #include "tests/gpu/shaders/LobeBench.h"
@@ -34,12 +33,12 @@ TEST_F(Lobes, aRandomSurfaceOfAnyModelAndLayerIsNotNaNInfiniteOrNegative) {
             for (std::size_t i = 0; i < results.size(); ++i) {
                 const LobeResult& r = results[i];
                 ASSERT_TRUE(isFiniteAndPositive(r.brdfCosine)) << "model " << model << " sample " << i;
-                // 1e20 is the brightest light that the specification asks for.
+                // 1e20 is the brightest light that the specification requires.
                 ASSERT_TRUE(isFiniteAndPositive(r.brdfCosine * 1e20f)) << "model " << model << " sample " << i;
                 ASSERT_TRUE(isFiniteAndPositive({r.d, r.v, r.f})) << "model " << model << " sample " << i;
                 lit += r.brdfCosine.x > 0.0f;
             }
-            EXPECT_GT(lit, kBatch / 4); // light comes from above for nearly half of them
+            EXPECT_GT(lit, kBatch / 4); // nearly half of the lights are above the surface
         }
     }
 }
@@ -77,7 +76,7 @@ TEST_F(Lobes, blinnPhongEqualsThePowerOfTheCosine) {
         TermsCase c;
         c.n = glm::vec3(random.direction());
         c.exponent = float(random.logarithmic(0.01, 1e5));
-        // Most of them where the highlight is not yet dark: cos^p = e^-8 at an angle of 4 / sqrt p.
+        // Most where the highlight is not yet dark: cos^p = e^-8 at an angle of 4 / sqrt p.
         const double angle = std::min(1.5, random.unit() * 4.0 / std::sqrt(double(c.exponent)));
         c.h = glm::vec3(random.around(glm::normalize(glm::dvec3(c.n)), std::cos(angle), std::cos(angle)));
         cases.push_back(c);
@@ -88,8 +87,8 @@ TEST_F(Lobes, blinnPhongEqualsThePowerOfTheCosine) {
         const double cosine = glm::dot(n, h), p = double(cases[i].exponent);
         const double sine2 = glm::dot(glm::cross(n, h), glm::cross(n, h));
         const double expected = std::exp(0.5 * p * std::log1p(-std::min(sine2, 1.0 - 1e-12)));
-        // |n x h|^2 is right to 4e-7 / angle, times p angle^2 / 2: 2e-7 p angle <= 8e-7 sqrt p; and beyond 30 degrees
-        // the cosine itself counts, off by 1.5e-7, which is more of it the smaller it is.
+        // |n x h|^2 is accurate to 4e-7 / angle, times p angle^2 / 2: 2e-7 p angle <= 8e-7 sqrt p. Beyond 30 degrees
+        // the error of the cosine, 1.5e-7, counts too, relatively more the smaller the cosine is.
         const double allowed = 3e-6 + 1e-6 * std::sqrt(p) + (sine2 > 0.2499 ? 3e-7 * p / cosine : 0.0);
         ASSERT_NEAR(found[i].blinnPhong, expected, allowed * expected) << "p " << p << " sine^2 " << sine2;
     }
@@ -127,12 +126,12 @@ TEST_F(Lobes, blinnPhongIsExactlyItsDiffuseAndSpecularPartsByHand) {
     c.exponent = 2.0f;
     c.l = {0.6f, 0.0f, 0.8f};
     c.v = {-0.6f, 0.0f, 0.8f};
-    // h = n: the highlight is 1 and takes no cosine.
+    // h = n: the highlight is 1, without a cosine.
     const glm::vec3 peak = run(c).brdfCosine;
     EXPECT_NEAR(peak.x, 0.5 * 0.8 + 0.25, 1e-6);
     EXPECT_NEAR(peak.y, 0.25 * 0.8 + 0.5, 1e-6);
     EXPECT_NEAR(peak.z, 1.0, 1e-6);
-    c.v = {0.6f, 0.0f, -0.8f}; // seen from below only the diffuse part remains
+    c.v = {0.6f, 0.0f, -0.8f}; // viewed from below, only the diffuse part remains
     EXPECT_NEAR(run(c).brdfCosine.x, 0.5 * 0.8, 1e-6);
     EXPECT_EQ(run(c).brdfCosine.z, 0.0f);
     c.l = {0.6f, 0.0f, -0.8f};
@@ -154,7 +153,7 @@ TEST_F(Lobes, theHalfVectorMaskingIsThatOfTheHandout) {
     }
     const std::vector<LobeResult> results = run(cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        // Of unit length to the last digit: near l = -v, l.h and v.h of fp32 vectors differ from each other.
+        // Normalised in double: near l = -v, l.h and v.h of fp32 vectors differ from each other.
         const glm::dvec3 l = glm::normalize(glm::dvec3(cases[i].l)), v = glm::normalize(glm::dvec3(cases[i].v));
         const double c = glm::dot(l, glm::normalize(l + v)), tan2 = (1.0 - c * c) / (c * c),
                      alpha = double(cases[i].alpha);

@@ -1,4 +1,4 @@
-// The neutral surface, written over other values of every member. In: those values. Out: eight vec4.
+// Writes the neutral surface over other values of every member. In: those values. Out: eight vec4.
 #include "lib/surface/surface.glsl"
 
 layout(local_size_x = 64) in;

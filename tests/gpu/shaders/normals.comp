@@ -1,4 +1,4 @@
-// Directions of any length as the normals that surfaces hold. In: (direction, -). Out: (normal, -).
+// Encodes directions of any length as surface normals, and decodes them. In: (direction, -). Out: (normal, -).
 #include "lib/maths/normal_code.glsl"
 
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
-// The factor of an area light's picture as a lobe sees it: its place against integrals over the light in double, and
-// its width against the Gaussian of docs/area-lights.md.
+// The image factor of an area light for a lobe: its lookup position against integrals over the light in double, and its
+// filter width against the Gaussian of docs/area-lights.md.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,12 +21,12 @@ namespace {
 using scenes::LightType;
 using namespace test;
 
-constexpr int kTexels = 256; ///< of each picture's sides
+constexpr int kTexels = 256; ///< of each image's sides
 
-/// As far from its middle as a disk's edge at most.
+/// At most as far from its centre as a disk's edge.
 const std::vector<glm::vec2> kTriangle{{-0.9f, -0.4f}, {0.8f, -0.6f}, {-0.3f, 0.9f}};
 
-/// Of what a place of a picture holds, x and y from 0 at the left and at the top to 1.
+/// A light texture with the value factor(x, y), x and y from 0 at the left and at the top to 1.
 template <typename Factor>
 scenes::LightTexture textureOf(int texels, const Factor& factor) {
     return lightTexture(texels, texels, [&](int x, int y) { return factor((x + 0.5) / texels, (y + 0.5) / texels); });
@@ -35,7 +35,7 @@ scenes::LightTexture textureOf(int texels, const Factor& factor) {
 class PicturesSeen : public GlTest {
 protected:
     enum Picture { Rectangles, Disks, Triangles, RectangleSquares, DiskSquares, OneTexel };
-    static constexpr int kOddTexels = 255; ///< of OneTexel, which is the one in its middle
+    static constexpr int kOddTexels = 255; ///< side of OneTexel, whose centre texel is 1
 
     PicturesSeen() {
         const scenes::LightTexture places =
@@ -52,14 +52,14 @@ protected:
             {squares, LightType::Rectangle, {}}, {squares, LightType::Disk, {}}, {one, LightType::Rectangle, {}}};
         gpu::bindTexelBuffer(TEXTURE_UNIT_LIGHT_PICTURES, pictures_.texels(shown).texels(graph::Format::Rgba32Float));
     }
-    /// Each light with a picture.
+    /// The factor of each light with an image.
     std::vector<glm::dvec3> factors(std::vector<SeenShape> shapes, const glm::mat3& matrix, Picture picture) {
         for (SeenShape& shape : shapes) shape.picture = picture;
         std::vector<glm::dvec3> factors;
         for (const SeenByShader& seen : seenByShader(bench_, shapes, matrix)) factors.push_back(seen.pictureFactor);
         return factors;
     }
-    /// Of what is seen of a light: the variances of x and y, and their covariance, in parts of the picture's sides.
+    /// Variances of x and y, and their covariance, of the filter on a light's image, in units of the image's sides.
     glm::dvec3 spreadOf(const SeenShape& shape, const glm::mat3& matrix, Picture places, Picture squares) {
         const glm::dvec3 mean = factors({shape}, matrix, places)[0];
         return factors({shape}, matrix, squares)[0] - glm::dvec3(mean.x * mean.x, mean.y * mean.y, mean.x * mean.y);
@@ -70,7 +70,7 @@ private:
     frame::LightPicturesGpu pictures_;
 };
 
-/// Before the point, turned about its own middle.
+/// A light straight ahead of the point, rotated about its centre.
 SeenShape straightAhead(double distanceMetres, double halfMetres, double radians = 0.0) {
     SeenShape shape;
     shape.middle = glm::dvec3(0.0, 0.0, distanceMetres);
@@ -79,7 +79,7 @@ SeenShape straightAhead(double distanceMetres, double halfMetres, double radians
     return shape;
 }
 
-/// Levels keep the places of a ramp to 2e-3 (LightPictures.aRampStaysTheSameRampInAllLevels), those of their middle
+/// Levels keep the positions of a ramp to 2e-3 (LightPictures.aRampStaysTheSameRampInAllLevels), those near the centre
 /// better.
 TEST_F(PicturesSeen, straightAheadTheirMiddleIsSeen) {
     std::vector<SeenShape> shapes;
@@ -91,7 +91,7 @@ TEST_F(PicturesSeen, straightAheadTheirMiddleIsSeen) {
     }
 }
 
-/// Anywhere but within 0.15 of the distance from their plane, for which the integral is too coarse.
+/// Random lights, except within 0.15 of the distance from their plane, where the integral is too coarse.
 std::vector<SeenShape> shapesAnywhere(LightType type, double distanceMetres) {
     Random random(41);
     std::vector<SeenShape> shapes;
@@ -109,8 +109,8 @@ std::vector<SeenShape> shapesAnywhere(LightType type, double distanceMetres) {
     return shapes;
 }
 
-/// The factor of a ramp is the place that is looked up, which is to be the mean place of the light that a lobe sees.
-/// From afar it is right to the square of the light's size over its distance.
+/// The factor of a ramp is the lookup position, which should be the mean position of the light that a lobe receives.
+/// Far away its error is the square of the light's size over its distance.
 TEST_F(PicturesSeen, ofARampNearlyTheMeanPlaceIsSeen) {
     const std::pair<LightType, Picture> all[] = {
         {LightType::Rectangle, Rectangles}, {LightType::Disk, Disks}, {LightType::Polygon, Triangles}};
@@ -137,17 +137,17 @@ TEST_F(PicturesSeen, ofARampNearlyTheMeanPlaceIsSeen) {
                 fmt::print("{}, {} m, lobe {}: {} lights, median {:.5f}, most {:.3f}\n", scenes::infoOf(type).name,
                            distance, lobe, errors.size(), median, most);
                 const bool isPolygon = type == LightType::Polygon, isNarrow = lobe == 2;
-                double far = std::max(0.04 / (distance * distance), 2.5e-4); // levels keep places nearly so well
-                if (isPolygon) far = 0.06 / distance;                        // filtered by columns and rows apart
-                if (isNarrow) far = isPolygon ? 0.02 : 0.01; // lights of a twentieth of their distance are large to it
+                double far = std::max(0.04 / (distance * distance), 2.5e-4); // levels keep positions nearly as well
+                if (isPolygon) far = 0.06 / distance;                        // filtered by columns and rows separately
+                if (isNarrow) far = isPolygon ? 0.02 : 0.01; // to it, a twentieth of the distance is large
                 EXPECT_LT(median, distance < 5.0 ? 0.065 : far);
-                EXPECT_LT(most, distance > 10.0 && lobe == 0 ? 0.035 : 0.22); // of what the horizon cuts
+                EXPECT_LT(most, distance > 10.0 && lobe == 0 ? 0.035 : 0.22); // for lights cut by the horizon
             }
         }
 }
 
-/// Of five places along the slower turn, of which each weighs as a Gaussian of 0.75 strides: their variance, in parts
-/// of the square of what the level lacks.
+/// Variance of five samples along the slower axis, each weighted by a Gaussian of 0.75 strides, in units of the squared
+/// width that the level lacks.
 double varianceOfStretch() {
     double moment = 0.0, weights = 0.0;
     for (int place = -2; place <= 2; ++place) {
@@ -158,14 +158,14 @@ double varianceOfStretch() {
     return moment / weights;
 }
 
-/// The spread of the documented Gaussian: (0.75 distance)^2 along the faster turn; along the slower, up to three times
-/// as far, that of its five places too. Levels add the width of their texels, up to 4 % here.
+/// Variance of the documented Gaussian: (0.75 distance)^2 along the axis where directions turn faster; along the
+/// slower, up to three times as far, also that of its five samples. Levels add their texels' width, up to 4 % here.
 TEST_F(PicturesSeen, straightAheadTheyAreAsWideAsTheirGaussian) {
-    constexpr double kLevel = 8.0 / kTexels; // of a level itself, so that none is mixed of two
+    constexpr double kLevel = 8.0 / kTexels; // the width of a level, so that no two levels are mixed
     for (const double stretch : {1.0, 1.5, 2.0, 3.0, 6.0})
         for (const double radians : {0.0, 0.3, 1.2, 2.5}) {
             SCOPED_TRACE(testing::Message() << "stretched " << stretch << " times, turned by " << radians);
-            // Six times is three times of a level twice as wide.
+            // Six times is three times a level of twice the width.
             const double wide = kLevel * stretch, level = std::max(kLevel, wide / 3.0);
             const glm::mat3 matrix(glm::vec3(1, 0, 0), glm::vec3(0, float(stretch), 0), glm::vec3(0, 0, 1));
             const SeenShape shape = straightAhead(wide / 0.75, 0.5, radians); // its sides are 1 m
@@ -177,8 +177,8 @@ TEST_F(PicturesSeen, straightAheadTheyAreAsWideAsTheirGaussian) {
         }
 }
 
-/// Of disks that lean, at the place that their mean direction meets. What a level is wider than its Gaussian it is
-/// along both axes: so what is wider along one than along the other is compared.
+/// Tilted disks, at the position that their mean direction meets. A level's excess width over its Gaussian is equal
+/// along both axes, so the difference between the axes is compared.
 TEST_F(PicturesSeen, aslantTheyAreLongerWhereDirectionsTurnSlower) {
     const std::array<glm::mat3, 3> matrices{
         kCosineMatrices[0], kCosineMatrices[1],
@@ -200,7 +200,7 @@ TEST_F(PicturesSeen, aslantTheyAreLongerWhereDirectionsTurnSlower) {
                 const glm::dvec3 middle = toCosine * glm::dvec3(shape.middle),
                                  first = toCosine * glm::dvec3(shape.first),
                                  second = toCosine * glm::dvec3(shape.second);
-                // Weighted by 1 / distance^4, where shares weigh by height too.
+                // 1 / z turns the lobe's weight of z / distance^4 into 1 / distance^4.
                 const auto perHeight = [&](double x, double y) { return 1.0 / (middle + x * first + y * second).z; };
                 const double whole = shareByQuadrature(shape, matrix, perHeight);
                 const double x = shareByQuadrature(
@@ -216,24 +216,24 @@ TEST_F(PicturesSeen, aslantTheyAreLongerWhereDirectionsTurnSlower) {
                 const double apart = std::hypot(0.5 * (a - b), both), mean = 0.5 * (a + b);
                 const double fast = 0.375 * 0.375 / (mean + apart), slow = 0.375 * 0.375 / (mean - apart);
                 longest = std::max(longest, slow / fast);
-                // The axes of turns are those of the spread; y of a picture runs downwards.
+                // The axes of turning are those of the filter; y of an image runs downwards.
                 const double odd = varianceOfStretch() * (slow - std::max(fast, slow / 9.0));
                 const glm::dvec2 wanted =
                     apart > 0.0 ? odd / apart * glm::dvec2(0.5 * (b - a), 0.5 * both) : glm::dvec2(0.0);
                 const glm::dvec3 spread = spreadOf(shape, matrix, Disks, DiskSquares);
                 const glm::dvec2 found(spread.x - spread.y, spread.z);
-                // Texels of levels, and the disk's edge, move each by up to 0.055.
+                // Texels of levels, and the disk's edge, change each by up to 0.055.
                 EXPECT_NEAR(found.x / fast, wanted.x / fast, 0.07);
                 EXPECT_NEAR(found.y / fast, wanted.y / fast, 0.07);
             }
     EXPECT_GT(longest, 3.0);
 }
 
-/// Between the picture itself and the level of one texel they are mixed by the width in texels.
+/// Below a texel, the image itself and its first level are mixed by the filter's width in texels.
 TEST_F(PicturesSeen, narrowerThanATexelTheyComeFromBoth) {
     double sum = 0.0;
     for (int texel = -3; texel <= 3; ++texel) sum += std::exp(-0.5 * texel * texel);
-    const double filtered = 1.0 / (sum * sum); // of the texel in the middle
+    const double filtered = 1.0 / (sum * sum); // of the centre texel
     for (const double texels : {0.25, 0.5, 0.75}) {
         const SeenShape shape = straightAhead(texels / kOddTexels / 0.75, 0.5);
         const double found = factors({shape}, kCosineMatrices[0], OneTexel)[0].x;
@@ -241,7 +241,7 @@ TEST_F(PicturesSeen, narrowerThanATexelTheyComeFromBoth) {
     }
 }
 
-/// From a level narrower than the picture to the last, which is as wide.
+/// From a level narrower than the image to the last one, which is as wide.
 TEST_F(PicturesSeen, goingAwayNothingJumps) {
     constexpr int kSteps = 400;
     std::vector<SeenShape> shapes;
@@ -252,7 +252,7 @@ TEST_F(PicturesSeen, goingAwayNothingJumps) {
     for (std::size_t i = 1; i < squares.size(); ++i) ASSERT_NEAR(squares[i].x, squares[i - 1].x, 0.02 * all) << i;
 }
 
-/// Of the light of a plane that leans, most comes from within some metres; lights are up to 1e12 times as wide.
+/// Most light of a tilted plane comes from within some metres; lights are up to 1e12 times as wide.
 TEST_F(PicturesSeen, ofVastLightsWhatIsNearestIsSeen) {
     std::vector<SeenShape> shapes;
     for (const double half : {1e4, 1e6, 1e12})
@@ -269,9 +269,9 @@ TEST_F(PicturesSeen, ofVastLightsWhatIsNearestIsSeen) {
     }
 }
 
-/// With a corner, an edge or itself at the point: by 1 / distance^4 nearly all of the light comes from there.
+/// With a corner, an edge or an inner point at the shading point: by 1 / distance^4 nearly all light comes from there.
 TEST_F(PicturesSeen, whereALightTouchesThePointItIsSeenThere) {
-    const glm::vec3 right(0.5f, 0.0f, 0.25f), up(0.0f, 0.5f, 0.375f); // of few bits, so that the point is in the plane
+    const glm::vec3 right(0.5f, 0.0f, 0.25f), up(0.0f, 0.5f, 0.375f); // few bits, so that the point is in the plane
     const std::pair<float, float> touching[] = {
         {-1.0f, -1.0f}, {-1.0f, 1.0f}, {0.0f, 1.0f}, {1.0f, 0.25f}, {0.0f, 0.0f}};
     std::vector<SeenShape> shapes;

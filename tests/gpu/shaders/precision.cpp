@@ -1,4 +1,4 @@
-// Digits of the microfacet terms against double precision at the same fp32 arguments.
+// Accuracy of the microfacet terms, compared with double precision at the same fp32 arguments.
 #include <algorithm>
 
 #include <gtest/gtest.h>
@@ -66,16 +66,16 @@ protected:
 };
 
 TEST_F(PrecisionTest, theDistributionKeepsItsDigitsAtSmallAlpha) {
-    // shading.md: the cross product keeps what 1 - (n.h)^2 loses. n x h cancels to about alpha, so fp32 leaves 6e-8 /
-    // alpha of it.
+    // shading.md: the cross product keeps the digits that 1 - (n.h)^2 loses. n x h cancels to about alpha, so its
+    // relative error in fp32 is 6e-8 / alpha.
     EXPECT_LE(distributionError(0.002f, 200000), 1e-4);
     EXPECT_LE(distributionError(0.01f, 200000), 2e-5);
     EXPECT_LE(distributionError(0.3f, 200000), 2e-6);
 }
 
-// The half vector lies in the lobe, so that light and viewer graze the surface, each on its side.
+// The half vector lies in the lobe, so that light and viewer graze the surface on opposite sides.
 TEST_F(PrecisionTest, theDistributionKeepsItsDigitsWhereLightAndViewerAreNearlyOpposite) {
-    // The sum of l and v is exact in fp32 or nearly so; its part across n cancels as n x h does in the test above.
+    // The sum of l and v is exact in fp32 or nearly so; its part across n cancels like n x h in the test above.
     struct Bar {
         double alpha, error;
     };
@@ -88,7 +88,7 @@ TEST_F(PrecisionTest, theDistributionKeepsItsDigitsWhereLightAndViewerAreNearlyO
             const double theta = std::atan(bar.alpha * std::tan(0.49 * pi * random.unit()));
             const glm::dvec3 h = random.around(glm::normalize(glm::dvec3(n)), std::cos(theta), std::cos(theta));
             const glm::dvec3 beside = glm::normalize(glm::cross(h, random.direction()));
-            const double half = random.logarithmic(1e-4, 1e-2); // of the angle that is missing to opposite ones
+            const double half = random.logarithmic(1e-4, 1e-2); // half of the angle missing to opposite
             const glm::vec3 l(std::sin(half) * h + std::cos(half) * beside);
             const glm::vec3 v(std::sin(half) * h - std::cos(half) * beside);
             const glm::dvec3 sum = glm::dvec3(l) + glm::dvec3(v), across = glm::cross(glm::dvec3(n), sum);
@@ -123,7 +123,7 @@ TEST_F(PrecisionTest, fresnelEqualsTheMeanOfItsPolarisations) {
     }
 }
 
-/// The form of Cook and Torrance 1982, as the books print it.
+/// The form of Cook and Torrance 1982, as printed in textbooks.
 double fresnelOfCookTorrance(double ior, double c) {
     const double g2 = ior * ior - 1.0 + c * c;
     if (g2 < 0.0) return 1.0;
@@ -161,8 +161,8 @@ TEST_F(PrecisionTest, fresnelBelowOneIsRightUpToItsCriticalAngle) {
     const std::vector<double> f = fresnel(cases);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const double expected = fresnelOfPolarisations(cases[i].ior, cases[i].cosine);
-        // As above one: at the critical angle too, where F falls from 1 like 1 - k sqrt(g2), because g2 keeps its
-        // digits.
+        // As above one: accurate at the critical angle too, where F falls from 1 like 1 - k sqrt(g2), because g2 keeps
+        // its digits.
         ASSERT_NEAR(f[i], expected, 1e-5) << "ior " << cases[i].ior << " cosine " << cases[i].cosine;
         ASSERT_LE(f[i], 1.0 + 1e-6);
         if (g2[i] < 0.0) {
@@ -213,7 +213,7 @@ TEST_F(PrecisionTest, aNormalKeepsItsDirectionAtAnyLength) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const glm::dvec3 wanted = glm::normalize(glm::dvec3(inputs[i]));
         const double error = glm::distance(glm::dvec3(out[i]), wanted);
-        // Half a step of 2^-24 in two shares, and five roundings.
+        // Half a step of 2^-24 in two ratios of components, and five roundings.
         ASSERT_LE(error, 2e-7) << wanted.x << " " << wanted.y << " " << wanted.z;
         sum += error;
     }
@@ -228,14 +228,14 @@ TEST_F(PrecisionTest, normalsAlongAnAxisAreExactAndThoseOfNoLengthPointUp) {
             wanted.emplace_back(0.0f)[axis] = length > 0.0f ? 1.0f : -1.0f;
         }
     const std::vector<glm::vec4> out = bench.run("test/normals.comp", {}, inputs, inputs.size(), 1);
-    // Division by the length, which is 1: exact with Mesa; GLSL 4.50 (section 4.7.1) allows a root and a division some
-    // ulp.
+    // Division by the length, which is 1: exact with Mesa; GLSL 4.50 (section 4.7.1) allows errors of some ulp in a
+    // root and a division.
     const double allowed = context().capabilities().isSoftware ? 0.0 : 2.5e-7;
     for (std::size_t i = 0; i < wanted.size(); ++i)
         for (int c = 0; c < 4; ++c) EXPECT_NEAR(out[i][c], wanted[i][c], allowed) << inputs[i].x << " " << c;
 }
 
-/// The direction of a place on the octahedral square -1..1, and the place of a direction of any length.
+/// The direction of a position on the octahedral square -1..1, and the position of a direction of any length.
 glm::dvec3 octahedral(const glm::dvec2& place) {
     const double z = 1.0 - std::abs(place.x) - std::abs(place.y);
     if (z >= 0.0) return glm::normalize(glm::dvec3(place, z));
@@ -257,7 +257,7 @@ TEST_F(PrecisionTest, normalsOfTrianglesAreStoredAsTheNearestPlaceOfTheirGrid) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
         const glm::dvec2 steps = (0.5 * octahedralPlace(glm::dvec3(inputs[i])) + 0.5) * kSteps;
         const glm::dvec2 nearest = glm::floor(steps + 0.5), away = glm::abs(steps - nearest);
-        // Roundings, of 1e-7 of all steps, may decide between two.
+        // Roundings of 1e-7 of all steps may select either of two neighbours.
         if (std::max(away.x, away.y) > 0.499) continue;
         ASSERT_LT(glm::distance(glm::dvec3(out[i]), octahedral(2.0 * nearest / kSteps - 1.0)), 1e-6) << i;
     }
@@ -275,7 +275,7 @@ TEST_F(PrecisionTest, normalsOfTrianglesAreStoredWithinTheirBound) {
     EXPECT_GE(worst, 0.5 * FACET_ERROR_RADIANS) << "the bound is not tight";
 }
 
-/// pow() alone is off by more.
+/// pow() alone has a larger error.
 TEST_F(PrecisionTest, srgbIsDecodedToAFewRoundings) {
     // Ten roundings of 2^-24: of 1.055, the sum and the quotient, each times 2.4 by the power, and of three products.
     constexpr double kTenRoundings = 6e-7;
@@ -290,7 +290,7 @@ TEST_F(PrecisionTest, srgbIsDecodedToAFewRoundings) {
     }
 }
 
-// What a surface without tangents gets in their place.
+// The substitute tangent of surfaces without tangents.
 TEST_F(PrecisionTest, anyPerpendicularIsUnitAndAtRightAngles) {
     test::Random random(5);
     std::vector<glm::vec4> inputs;

@@ -1,6 +1,6 @@
-// What a clamped cosine that a matrix transforms sees of area lights; the normal is z. In: (middle from the point, type),
-// LightShapeTexels' two, LightCornerTexels' seven, the three columns of the matrix.
-// Out: (share, edges of the outline, 0, 0), (factor of the light's picture, 0).
+// The fraction of a clamped cosine, transformed by a matrix, that area lights cover; the normal is z. In: (centre from
+// the point, type), LightShapeTexels' two, LightCornerTexels' seven, the three columns of the matrix.
+// Out: (fraction, edges of the outline, 0, 0), (factor of the light's image, 0).
 #include "shared/light.h"
 
 #define HAS_OTHER_LIGHT_STORE

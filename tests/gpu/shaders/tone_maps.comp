@@ -1,5 +1,5 @@
-// Tone maps and the transfer function of displays. In: linear radiance, TONEMAP_*. Out: linear display values; their codes
-// without a tone map.
+// Tone maps and the transfer function of displays. In: linear radiance, TONEMAP_*. Out: (tone-mapped linear value, 0),
+// (sRGB code without a tone map, 0).
 #include "shared/tonemap.h"
 
 layout(local_size_x = 64) in;

@@ -1,6 +1,6 @@
-// Tone maps of saturated colours against their authors' publications, in double precision and in other forms: the ACES
-// matrices follow from primaries, white points and desaturation, AgX's way back is the published inverse, Khronos's toe
-// and shoulder are those of its text.
+// Tone maps of saturated colours, compared with their authors' publications in double precision and in other forms: the
+// ACES matrices follow from primaries, white points and desaturation, AgX's outset is the published inverse, Khronos's
+// toe and shoulder are those of its text.
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -45,7 +45,7 @@ dmat3 adapted(const dvec2& from, const dvec2& to) {
     const dvec3 ratio = (cone * xyzOf(to)) / (cone * xyzOf(from));
     return glm::inverse(cone) * dmat3(ratio.x, 0, 0, 0, ratio.y, 0, 0, 0, ratio.z) * cone;
 }
-/// Towards the luminance of AP1. Source: ACES 1.0, RRT_SAT_FACTOR = 0.96 and ODT_SAT_FACTOR = 0.93.
+/// Desaturates towards the luminance of AP1. Source: ACES 1.0, RRT_SAT_FACTOR = 0.96 and ODT_SAT_FACTOR = 0.93.
 dmat3 saturation(double factor) {
     const dmat3 xyz = xyzFrom(kAp1);
     const dvec3 luminance(xyz[0].y, xyz[1].y, xyz[2].y);
@@ -122,8 +122,8 @@ double srgbCode(double linear) {
     return c <= 0.0031308 ? 12.92 * c : 1.055 * std::exp(std::log(c) / 2.4) - 0.055;
 }
 
-/// Primaries, their complements, skin, foliage, sky, flame and grey from the dark to far above white; and where two
-/// pieces of a formula meet.
+/// Primaries, their complements, skin, foliage, sky, flame and grey, from dark to far above white; and values around
+/// the boundaries of piecewise formulas.
 std::vector<dvec3> colours() {
     constexpr dvec3 kHues[] = {{1, 0, 0}, {0, 1, 0},          {0, 0, 1},          {1, 1, 0},          {0, 1, 1},
                                {1, 0, 1}, {0.46, 0.24, 0.16}, {0.12, 0.25, 0.05}, {0.15, 0.3, 0.8},   {1.0, 0.35, 0.06},
@@ -132,7 +132,7 @@ std::vector<dvec3> colours() {
     for (const dvec3& hue : kHues)
         for (const double scale : {0.0001, 0.001, 0.004, 0.006, 0.02, 0.1, 0.3, 0.7, 1.0, 1.8, 4.0, 13.0, 40.0, 500.0})
             all.push_back(hue * scale);
-    // Khronos's toe ends where the least is 0.08, its shoulder begins where the most is 0.76 above the toe.
+    // Khronos's toe ends at a smallest channel of 0.08, its shoulder begins at a largest of 0.76 above the toe.
     for (const double least : {0.0793, 0.0807})
         for (const double most : {0.1, 0.5, 0.793, 0.807}) all.push_back({most, least, 0.09});
     for (const double linear : {0.00311, 0.00315}) all.push_back(dvec3(linear)); // the piece below 0.0031308
@@ -164,11 +164,11 @@ protected:
     }
 
 private:
-    /// Codes: GLSL lets log2 be off by 2^-21 between 1/2 and 2 and exp2 by 3 units in the last place and more, so that
-    /// pow with an exponent below 1 is off by some ten.
+    /// Tolerance of codes: GLSL lets log2 be off by 2^-21 between 1/2 and 2 and exp2 by 3 units in the last place and
+    /// more, so that pow with an exponent below 1 is off by some ten.
     static constexpr double kPower = 1.5e-6;
-    /// Horner's sums of AgX's curve reach 25, of which a rounding is 1e-6; two of these, times 2.2 for the power
-    /// and 1.2 for the outset. The others are ten or so roundings of values up to 1.
+    /// Horner's sums of AgX's curve reach 25, where a rounding is 1e-6; two of these, times 2.2 for the power and 1.2
+    /// for the outset. The others have ten or so roundings of values up to 1.
     static double allowed(std::uint32_t curve, double wanted) {
         return curve == TONEMAP_AGX ? 6e-6 : 6e-7 * std::max(wanted, 1.0);
     }
@@ -200,7 +200,7 @@ TEST_F(ToneMaps, thePublishedMatricesFollowFromTheirPrimaries) {
     }
 }
 
-/// Where numbers other than zero with a decimal point stand in the code, and how long they are.
+/// Positions and lengths of the numbers with a decimal point in the code, except zero.
 std::vector<std::pair<std::size_t, std::size_t>> constantsIn(const std::string& code) {
     std::vector<std::pair<std::size_t, std::size_t>> found;
     for (std::size_t at = 0; at < code.size();) {

@@ -1,5 +1,5 @@
-// Small numerics of vectors. In: (v, -), (unit vector n, -).
-// Out: (v normalised, or (7, 7, 7) where it has no direction, -), (a vector at right angles to n, -).
+// Small vector functions. In: (v, -), (unit vector n, -).
+// Out: (v normalised, or (7, 7, 7) if it has no direction, -), (a vector perpendicular to n, -).
 #include "lib/maths/math.glsl"
 
 layout(local_size_x = 64) in;

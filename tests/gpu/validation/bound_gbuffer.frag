@@ -1,4 +1,4 @@
-// Stores the measured lower bound's surface in a G-buffer, where the product's passes find it.
+// Stores the measured lower bound's surface in a G-buffer for the product's passes.
 #define GBUFFER_WRITE
 #include "bench/bound_surface.glsl"
 #include "lib/gbuffer/gbuffer.glsl"

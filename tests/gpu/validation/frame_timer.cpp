@@ -1,4 +1,4 @@
-// Frames that are timed in turn.
+// Timing of interleaved frames.
 #include <chrono>
 #include <numeric>
 #include <optional>
@@ -103,7 +103,7 @@ TEST_F(FrameTimerTest, roundsOfTheWarmUpAreNotTimed) {
 }
 
 TEST_F(FrameTimerTest, theWarmUpSeesEveryPlaceOfTheEye) {
-    // What a frame needs, such as the lights in view, may differ from place to place.
+    // The work of a frame, such as the lights in view, may depend on the eye's position.
     const auto placesOf = [](int rounds) {
         std::set<double> places;
         for (int i = 0; i < rounds; ++i) places.insert(validation::eyeOffsetOfFrame(i).x);

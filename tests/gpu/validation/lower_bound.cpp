@@ -1,4 +1,4 @@
-// The measured lower bound: its shaders compute the product's lighting, and its figures are present.
+// The measured lower bound: its shaders compute the product's lighting, and it reports all of its figures.
 #include <algorithm>
 #include <memory>
 
@@ -18,7 +18,7 @@ namespace {
 
 using validation::LowerBoundLighting;
 
-/// One light of every kind.
+/// One light of every type and falloff.
 frame::PackedLights everyKind() {
     frame::PackedLights lights;
     for (const scenes::LightTypeInfo& type : scenes::lightTypes()) {
@@ -29,7 +29,7 @@ frame::PackedLights everyKind() {
     return lights;
 }
 
-/// Numbers that are not the same.
+/// Number of values that differ.
 int differences(const std::vector<float>& a, const std::vector<float>& b) {
     EXPECT_EQ(a.size(), b.size());
     int count = 0;
@@ -52,11 +52,11 @@ protected:
         options.lights = lights;
         return scenes::loadScene("lattice", options);
     }
-    /// A scene of one model and one kind of light; and one of everything, whose models and kinds take turns.
+    /// Specs of a scene with one model and one type of light, and of all features, whose models and types alternate.
     static std::vector<frame::FrameSpec> specs() {
         const scenes::Scene scene = lattice(16);
         std::vector<frame::FrameSpec> result{engine::prepareView(scene, engine::Technique::Forward, settings()).spec};
-        // Of the lower bound's surface every pixel is another material.
+        // Every pixel of the lower bound's surface has another material.
         result[0].features.add(frame::Feature::VaryingMaterials);
         result[0].channels = frame::neededChannels(result[0].features, settings().layout, false);
         result.emplace_back().settings = settings();
@@ -76,7 +76,7 @@ protected:
 
     /// The lower bound's surface in an exact G-buffer.
     struct StoredSurface {
-        std::vector<std::unique_ptr<gpu::Texture>> channels; ///< as FrameSpec::channels
+        std::vector<std::unique_ptr<gpu::Texture>> channels; ///< in the order of FrameSpec::channels
         std::unique_ptr<gpu::Texture> depth;
     };
     StoredSurface storeSurface(const frame::FrameSpec& spec, const LowerBoundLighting& lighting) {
@@ -102,7 +102,7 @@ protected:
         return stored;
     }
 
-    /// That surface lit by the shader of the deferred techniques.
+    /// That surface, lit by the shader of the deferred techniques.
     std::vector<float> deferredPicture(const frame::FrameSpec& spec, const LowerBoundLighting& lighting) {
         const StoredSurface stored = storeSurface(spec, lighting);
         const gpu::Texture radiance("radiance", spec.texture(graph::Format::Rgba32Float));
@@ -186,7 +186,7 @@ TEST_F(LowerBoundTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
                 same += values[i] == values[i - components] ? 1 : 0;
             EXPECT_LE(same, kMostAlike * values.size() / components) << "component " << component;
         };
-        // A microfacet model is never metallic and keeps its masking there, an option as the model is one.
+        // A microfacet model is never metallic and stores its masking there, a discrete option like the model.
         const auto expectMetallicVaried = [](const gpu::Texture& microsurface) {
             const std::vector<glm::vec4> values = microsurface.downloadAs<glm::vec4>();
             for (std::size_t i = 1; i < values.size(); ++i) {
@@ -215,13 +215,13 @@ TEST_F(LowerBoundTest, neighbouringPixelsNeverShareAPropertyOfTheSurface) {
             case frame::Channel::Tangent: // and alpha
                 for (const std::size_t component : {0, 1, 2, 3}) expectVaried(*stored.channels[channel], 4, component);
                 break;
-            case frame::Channel::Clearcoat: // normal, alpha; a share only where the model has one
+            case frame::Channel::Clearcoat: // normal, alpha; the factor only if the model has one
                 for (const std::size_t component : {0, 1, 3}) expectVaried(*stored.channels[channel], 4, component);
                 break;
-            case frame::Channel::Sheen: // alpha; a colour only where the model has one
+            case frame::Channel::Sheen: // alpha; the colour only if the model has one
                 expectVaried(*stored.channels[channel], 4, 3);
                 break;
-            default: // no part of the loop over lights
+            default: // not used by the loop over lights
                 break;
             }
         }

@@ -1,4 +1,4 @@
-// The list of scenes has a small picture of each that is built in.
+// Every built-in scene has a thumbnail in the list of scenes.
 #include "viewer/show/SceneThumbnails.h"
 
 #include "scenes/Load.h"

@@ -21,7 +21,7 @@ class FrameJournals : public testing::Test {
 protected:
     FramePattern pattern() const { return FramePattern((folder_.path() / "f_%02d.png").string()); }
     std::string path(int frame) const { return pattern().path(frame); }
-    /// Writes the file of a frame, and its line into the shard's journal.
+    /// Writes a frame's file, and its line in the shard's journal.
     void finish(int frame, const std::string& text, const Shard& shard = {}) const {
         folder_.write("f_0" + std::to_string(frame) + ".png", text);
         FrameJournal(pattern(), shard)
@@ -71,7 +71,7 @@ TEST_F(FrameJournals, aLineThatWasCutOffIsNoneAndSpoilsNoOther) {
     const std::string whole = journal("f_frames.png.txt");
     for (std::size_t kept = 0; kept <= whole.size(); ++kept) {
         folder_.write("f_frames.png.txt", whole.substr(0, kept));
-        EXPECT_EQ(isFinished(1), kept + 1 >= whole.size() / 2) << kept; // a line is whole without its end too
+        EXPECT_EQ(isFinished(1), kept + 1 >= whole.size() / 2) << kept; // a line is complete without its newline
         EXPECT_EQ(isFinished(2), kept + 1 >= whole.size()) << kept;
         finish(3, "three");
         EXPECT_TRUE(isFinished(3)) << kept;

@@ -17,17 +17,17 @@ namespace {
 
 using testing::HasSubstr;
 
-/// What the command line makes of some words.
+/// Parses the words of a command line into options.
 FrameOptions ofCommandLine(std::vector<std::string> words) {
     CLI::App command;
     FrameOptions options;
     addFrameOptions(command, options, "hall");
-    std::ranges::reverse(words); // as CLI11 takes them
+    std::ranges::reverse(words); // CLI11 expects them reversed
     command.parse(words);
     return options;
 }
 
-/// A keyword's value and the words that say the same on the command line.
+/// A keyword's value and the equivalent words of the command line.
 struct SaidTwice {
     KeywordValue value;
     std::vector<std::string> words;
@@ -58,7 +58,7 @@ const std::map<std::string_view, SaidTwice>& saidTwice() {
     return table;
 }
 
-/// All that options hold besides their settings.
+/// Text of the options apart from their settings.
 std::string allOf(const FrameOptions& options) {
     return frameOptionText(options) + " memory " + options.memoryLimit.value_or("");
 }
@@ -81,7 +81,7 @@ TEST(Keywords, everyOptionOfAFrameHasOne) {
     for (const LoadKeyword& row : loadKeywords())
         EXPECT_TRUE(keywords.emplace(row.keyword).second) << row.keyword << " is said by two";
     keywords.erase("default_light");
-    keywords.insert("no_default_light"); // the one flag that says the opposite
+    keywords.insert("no_default_light"); // the only negated flag
     CLI::App command;
     FrameOptions options;
     addFrameSettings(command, options);

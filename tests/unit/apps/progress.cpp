@@ -24,7 +24,7 @@ std::string contents(std::FILE* file) {
     return text;
 }
 
-/// A bar that would draw at once, on a file that stands for the terminal.
+/// Output settings that draw at once; `stream` stands in for the terminal.
 ProgressOutput eager(std::FILE* stream, bool isTerminal) {
     return {stream, isTerminal, 80, 0.0, 0.001};
 }
@@ -37,7 +37,7 @@ void waitForOutput(std::FILE* file) {
 
 TEST(Progress, theLineShowsTheShareTheCountAndTheTimeLeft) {
     EXPECT_EQ(progressLine("rendering", 4, 10, 4.0, 45), "rendering  [######----------]  4/10  6 s left");
-    EXPECT_EQ(progressLine("rendering", 0, 10, 4.0, 29), "rendering  [----------]  0/10"); // no rate known yet
+    EXPECT_EQ(progressLine("rendering", 0, 10, 4.0, 29), "rendering  [----------]  0/10"); // the rate is unknown
     EXPECT_EQ(progressLine("x", 10, 10, 4.0, 35), "x  [#############]  10/10  0 s left");
     EXPECT_EQ(progressLine("x", 0, 0, 4.0, 20), "x  [----------]  0/0");
 }
@@ -82,7 +82,7 @@ TEST(Progress, nothingIsWrittenWithoutATerminalOrWhenQuietOrBeforeTheDelay) {
         Progress quiet("x", 1, true, eager(file.get(), true));
         Progress brief("x", 1, false, late);
         brief.advance();
-        std::this_thread::sleep_for(std::chrono::milliseconds(30)); // many times the interval of the eager ones
+        std::this_thread::sleep_for(std::chrono::milliseconds(30)); // many update intervals of the eager bars
     }
     EXPECT_THAT(contents(file.get()), IsEmpty());
 }

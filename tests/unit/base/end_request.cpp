@@ -10,7 +10,7 @@ namespace {
 TEST(EndRequest, aSignalIsNotedOnlyWhereTheEndIsHeldAndThenEndsTheProgram) {
     EXPECT_EXIT(
         {
-            bool isRight = !noteEnd(SIGINT) && notedEnd() == 0; // it ends at once
+            bool isRight = !noteEnd(SIGINT) && notedEnd() == 0; // not held: the signal ends the program at once
             holdEnd(true);
             isRight = isRight && noteEnd(SIGTERM) && notedEnd() == SIGTERM;
             holdEnd(false);

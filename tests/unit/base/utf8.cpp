@@ -14,7 +14,7 @@ TEST(Utf8, aLetterIsOneThatUnicodeHas) {
         EXPECT_EQ(letterBytes(letter), letter.size()) << letter;
         EXPECT_EQ(letterBytes(letter.substr(0, letter.size() - 1)), 0u) << letter;
     }
-    // Two forms of U+009B that are too long, a surrogate, and what lies beyond U+10FFFF.
+    // Two overlong forms of U+009B, a surrogate, and a code point beyond U+10FFFF.
     for (const std::string_view none : {"\xe0\x82\x9b", "\xf0\x80\x82\x9b", "\xed\xa0\x80", "\xf4\x90\x80\x80"})
         EXPECT_EQ(letterBytes(none), 0u) << oneLine(none);
     EXPECT_EQ(oneLine("\xe0\x82\x9b"), "\\xe0\\x82\\x9b");

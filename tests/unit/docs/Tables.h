@@ -23,7 +23,7 @@ inline std::vector<std::filesystem::path> documents() {
     return found;
 }
 
-/// A Markdown table as its author should write it.
+/// Rows of a Markdown table.
 using Rows = std::vector<std::vector<std::string>>;
 inline std::string markdownTable(const std::vector<std::string>& head, const Rows& rows) {
     const auto line = [](const std::vector<std::string>& cells) {
@@ -38,7 +38,7 @@ inline std::string markdownTable(const std::vector<std::string>& head, const Row
     return text;
 }
 
-/// Whether the document holds exactly this table: these lines, and no further row.
+/// Returns whether the document contains exactly this table: these lines, and no further row.
 inline bool holdsTable(const std::string& document, const std::string& table) {
     const std::size_t at = document.find(table);
     if (at == std::string::npos) return false;

@@ -1,4 +1,4 @@
-// What the documents point at: files by links, tests by name.
+// References in the documents: links to files, and names of tests.
 #include <regex>
 #include <set>
 
@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Every first group of `pattern` in `text`.
+/// First group of every match of `pattern` in `text`.
 std::vector<std::string> matches(const std::string& text, const std::regex& pattern) {
     std::vector<std::string> found;
     for (std::sregex_iterator it(text.begin(), text.end(), pattern), end; it != end; ++it) found.push_back(it->str(1));
@@ -51,7 +51,7 @@ TEST(Documentation, everyLinkWithinTheRepositoryLeadsSomewhere) {
     EXPECT_GT(links, 20);
 }
 
-/// The names of tests that the macros for sweeps declare in a source, as other tests are: "(Suite, name)".
+/// Tests that the TEST_SWEEP macros declare in a source, in the form of other tests: "(Suite, name)".
 std::string namesOfSweeps(const std::string& source) {
     std::string names;
     for (std::size_t at = 0; (at = source.find("TEST_SWEEP", at)) != std::string::npos;) {

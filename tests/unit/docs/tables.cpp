@@ -109,7 +109,7 @@ TEST(Documentation, theAnimatedPropertiesAreThoseOfTheProgram) {
                                                       {AnimatedOwner::Texture, "a material's texture"},
                                                       {AnimatedOwner::Camera, "a camera"}};
     constexpr std::string_view kExtensions = "extensions/";
-    Rows rows; // one for each owner and extension, whose properties stand together in the table of the program
+    Rows rows; // one per owner and extension; the program's table keeps their properties together
     for (const scenes::AnimatedPropertyInfo& info : scenes::animatedProperties()) {
         std::string_view path = info.path;
         std::string extension;
@@ -131,7 +131,7 @@ TEST(Documentation, theAnimatedPropertiesAreThoseOfTheProgram) {
 
 TEST(Documentation, everyMemberWithKeyframesHasARow) {
     const std::string text = test::textOf(test::kRepository / "docs" / "scene-format.md");
-    for (const scenes::LightKeyedInfo& member : scenes::keyedMembers().subspan(1)) // the position moves by "animation"
+    for (const scenes::LightKeyedInfo& member : scenes::keyedMembers().subspan(1)) // "animation" moves the position
         EXPECT_NE(text.find("\n| " + code(member.name) + " |"), std::string::npos) << member.name;
 }
 

@@ -52,7 +52,7 @@ TEST(ChooseSamples, invalidSampleCountsAreRefused) {
     }
 }
 
-// Who looks at the number that was asked for to tell whether a pixel is one sample relies on it.
+// Code that derives single sampling from the requested sample count relies on this.
 TEST(ChooseSamples, aFrameHasASingleSampleExactlyWhereOneIsAskedFor) {
     const std::vector<std::size_t> drivers[] = {{1}, {1, 2}, {1, 4}, {1, 2, 4, 8}};
     for (const std::vector<std::size_t>& driver : drivers)

@@ -1,4 +1,4 @@
-// What the settings say of the light that enters surfaces, and the key that it is kept under.
+// Settings that affect the light entering surfaces, and the cache key of the diffused irradiance.
 #include <algorithm>
 #include <string>
 #include <variant>
@@ -13,7 +13,7 @@
 namespace tessera::engine {
 namespace {
 
-/// Values that a setting may have, as texts.
+/// Some values of a setting, as texts.
 std::vector<std::string> someValues(const Setting& setting) {
     const SettingKind& kind = setting.value.kind;
     std::vector<std::string> values;
@@ -39,7 +39,7 @@ protected:
         scene_.cameras.back().worldFromCamera[3].x += 0.01;
         usual_ = keyOf({});
     }
-    /// Of the first object; 0 where no light spreads.
+    /// Returns the diffusion key of the first object; 0 without diffusion.
     std::uint64_t keyOf(const ViewRequest& request) const {
         const frame::PreparedView prepared = prepareView(scene_, request.technique, request.settings, bounds_);
         if (prepared.spreadingViews.empty()) return 0;
@@ -55,7 +55,7 @@ TEST_F(EnteringLight, isKeptWhateverOtherSettingsSay) {
     ASSERT_NE(usual_, 0u);
     std::size_t tried = 0;
     for (const Setting& setting : settingTable()) {
-        if (setting.entersLight || setting.key == "view") continue; // others show no light that has spread
+        if (setting.entersLight || setting.key == "view") continue; // other views show no diffused irradiance
         std::vector<std::string> values = someValues(setting);
         if (setting.key == "camera") values = {"1"};
         for (const std::string& value : values) {

@@ -7,7 +7,7 @@
 namespace tessera::engine {
 namespace {
 
-/// Those of meshes that the hook leaves alone are the scene's own, as a morph target may change them.
+/// Meshes that the hook leaves alone remain the scene's, because a morph target may change them.
 TEST(HookedScene, takesColoursOfVerticesThatTheHookDoesNotMove) {
     scenes::Scene scene = scenes::tinyScene();
     scene.materials.emplace_back().name = "hooked";

@@ -19,7 +19,7 @@ bool drawsVolumes(const scenes::Scene& scene, frame::DebugView view) {
 TEST(LightVolumesPass, isNeverDeclaredForViewsThatDoNotSumOverLights) {
     const scenes::Scene scene = scenes::loadScene("room");
     for (const frame::DebugViewInfo& info : frame::debugViewTable()) {
-        if (info.needsGBuffer) continue; // scenes do not store every channel
+        if (info.needsGBuffer) continue; // a scene may not store their channel
         const bool sums = frame::sumsOverLights(info.view);
         EXPECT_EQ(drawsVolumes(scene, info.view), sums) << info.name;
     }

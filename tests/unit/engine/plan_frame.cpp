@@ -15,7 +15,7 @@
 namespace tessera::engine {
 namespace {
 
-/// The plan's choice of a name; empty where there is none.
+/// Returns the plan's choice of this name; empty without one.
 graph::Plan::Choice choiceOf(const graph::Plan& plan, std::string_view what) {
     const auto found = std::ranges::find(plan.choices, what, &graph::Plan::Choice::what);
     return found == plan.choices.end() ? graph::Plan::Choice() : *found;
@@ -28,7 +28,7 @@ std::uint64_t counterOf(const graph::Plan& plan, std::string_view name) {
     return found == plan.counters.end() ? 0 : found->second;
 }
 
-/// What the plan says of channels that are not stored as the layout says.
+/// The plan's choices about channels stored differently from the layout.
 std::vector<graph::Plan::Choice> channelChoices(const scenes::Scene& scene, const frame::GBufferLayout& layout) {
     frame::FrameSettings settings;
     settings.layout = layout;
@@ -39,7 +39,7 @@ std::vector<graph::Plan::Choice> channelChoices(const scenes::Scene& scene, cons
 }
 
 TEST(PlanFrame, aChannelThatIsStoredFinerThanTheLayoutIsNamedWithItsReasonAndNoOtherIs) {
-    const scenes::Scene scene = scenes::loadScene("models"); // some mask by the half vector, or have streaks
+    const scenes::Scene scene = scenes::loadScene("models"); // has half-vector masking and anisotropic highlights
     const frame::GBufferLayout& packed = frame::layoutTable()[1].layout;
     const frame::GBufferLayout& slim = frame::layoutTable()[2].layout;
     const std::vector<graph::Plan::Choice> choices = channelChoices(scene, slim);
@@ -81,7 +81,7 @@ TEST(PlanFrame, aChoiceThatASettingMadeNamesTheSettingAndItsDefaultGivesAReason)
     EXPECT_THAT(whyTile({}), testing::HasSubstr("fastest"));
 }
 
-/// A floor, and so many lights above it that are soft and cast shadows.
+/// The room with `count` soft lights that cast shadows.
 scenes::Scene softLights(std::size_t count) {
     scenes::Scene scene = scenes::loadScene("room");
     scene.lights.assign(count, scene.lights.front());
@@ -171,7 +171,7 @@ TEST(PlanFrame, tellsWhatSpreadingLightCosts) {
         return choiceOf(planFrame(scenes::loadScene(scene), Technique::Deferred, settings), "spread light");
     };
     const graph::Plan::Choice choice = told("diffusion_truth");
-    // Two cells side by side with a row above, and of each two textures, of 16 bytes a texel.
+    // An atlas of two cells side by side plus a row of texels, and two textures per object; 16 bytes per texel.
     EXPECT_EQ(choice.chosen, "2 objects, 128 texels a side, 1.504 MiB kept");
     EXPECT_THAT(choice.why, testing::HasSubstr("levels"));
     EXPECT_EQ(told("room").what, "");
@@ -207,7 +207,7 @@ TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     const auto told = [&](const scenes::Scene& scene) {
         return choiceOf(planFrame(scene, Technique::Deferred, settings), "loops of lights");
     };
-    // 64 lights of two times 1024 texels, a face and themselves; 82 for lights without shadows: lists of two words.
+    // Per light two times 1024 texels, one for the face and one for the light; 116 for the loops over the 64 lights.
     settings.shadowFilter = frame::ShadowFilter::Pcss;
     settings.shadowSamples = 1024;
     EXPECT_EQ(told(softLights(64)).chosen, "up to 131316 iterations");
@@ -230,14 +230,14 @@ TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
     EXPECT_EQ(told(softLights(1000)).chosen, "") << "21 iterations a light with 3 texels";
     settings.shadowMaps.widthTexels = 7;
     EXPECT_THAT(told(softLights(1000)).why, testing::HasSubstr("give a smaller --shadow-width or"));
-    // The object that light spreads over has lights of its own.
+    // A diffusion view has its own lights.
     frame::PreparedView whole;
     whole.spreadingViews = {prepareView(softLights(1000), Technique::Deferred, settings)};
     whole.spreadingObjects.emplace_back().name = "mesh 'bust'";
     EXPECT_THAT(cutShadows(whole).why, testing::StartsWith("when lighting mesh 'bust' for diffusion: shadows of 1000"));
     whole.spreadingViews.clear();
     EXPECT_EQ(cutShadows(whole).why, "");
-    // Cascades count each.
+    // Every cascade counts.
     scenes::Scene suns = softLights(300);
     for (scenes::Light& light : suns.lights) light.type = scenes::LightType::Directional;
     EXPECT_NE(told(suns).chosen, "");
@@ -251,7 +251,7 @@ TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
     const scenes::Scene scene = scenes::loadScene("lattice", options);
     frame::FrameSettings settings;
     settings.culling.builder = culling::Builder::Compute;
-    settings.culling.lanes = 1; // more lights than its loops may visit
+    settings.culling.lanes = 1; // more lights than the loops of one round visit
     const graph::Plan plan = planFrame(scene, Technique::ClusteredDeferred, settings);
     for (const char* step : {"light_count", "light_sizes", "light_lists"}) {
         int rounds = 0;
@@ -271,7 +271,7 @@ TEST(PlanFrame, twoViewsOfAFrameReuseMemory) {
     const graph::Plan one = planViews(scene, std::span(views).first(1)), two = planViews(scene, views);
     EXPECT_LT(two.bytes, two.bytesWithoutAliasing);
     EXPECT_EQ(one.bytes, one.bytesWithoutAliasing) << "of one view all lives at once";
-    // The second view's G-buffer lies where the first one's was.
+    // The second view's G-buffer reuses the memory of the first one's.
     const auto sharing = std::ranges::find_if(
         two.resources, [](const graph::Plan::Resource& resource) { return resource.name == "gbuffer.albedo (2)"; });
     ASSERT_NE(sharing, two.resources.end());

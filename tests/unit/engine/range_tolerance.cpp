@@ -25,7 +25,7 @@ scenes::Scene sceneWith(std::vector<scenes::Light> lights) {
     return scene;
 }
 
-/// What the plan says of the tolerance, chosen and why; empty when it says nothing.
+/// The plan's choice of the range tolerance and its reason; empty without one.
 std::string said(const scenes::Scene& scene, double tolerance) {
     frame::FrameSettings settings;
     settings.rangeTolerance = tolerance;

@@ -24,8 +24,8 @@ std::string refusal(const auto& work) {
     return test::errorText<InputError>(work);
 }
 
-/// In which members two requests differ: first those that users set, then those that they do not. A struct with a new
-/// member does not compile here until the member is among them.
+/// The members in which two requests differ: those that users set, then the others. A new member of a struct does not
+/// compile here until it is listed.
 struct Differences {
     std::vector<bool> ofUsers, ofOthers;
 };
@@ -294,9 +294,9 @@ TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {
     EXPECT_EQ(refusal([&] { requireTaken(request); }), "");
 }
 
-// ---- Scenes ask for settings ---------------------------------------------------------------------------------------
+// ---- Settings requested by scenes ----------------------------------------------------------------------------------
 
-/// A text as a scene's file has it.
+/// Converts a setting's text to the value in a scene file.
 scenes::Wish wishOf(const Setting& setting, const std::string& text) {
     if (text == setting.value.open) return text;
     const auto* choice = std::get_if<ChoiceKind>(&setting.value.kind);

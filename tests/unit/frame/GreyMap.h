@@ -5,7 +5,7 @@
 
 namespace tessera::test {
 
-/// An environment's map of the radiance of each texel, the same in all channels.
+/// A grey environment map from the radiance of each texel.
 inline scenes::Image greyMap(int width, int height, const std::function<double(int, int)>& radiance) {
     return scenes::builtin::drawRadiance("grey", width, height,
                                          [&](int x, int y) { return glm::dvec3(radiance(x, y)); });

@@ -6,7 +6,7 @@
 
 namespace tessera::test {
 
-/// Lights packed for a picture by a camera; the default one is at the origin, looks along -z and sees 45 degrees.
+/// Packs lights for a camera; the default one is at the origin, looks along -z and has a field of view of 45 degrees.
 inline frame::PackedLights pack(const std::vector<scenes::Light>& lights, const frame::FrameSettings& settings = {},
                                 const scenes::Camera& camera = {}) {
     scenes::Scene scene;
@@ -14,7 +14,7 @@ inline frame::PackedLights pack(const std::vector<scenes::Light>& lights, const 
     return packLights(scene, makeCameraView(camera, {640, 360}, settings.space, glm::vec3(0.0f)), settings);
 }
 
-/// Gives a light sizes of every kind between these, at random.
+/// Sets every size of a light at random between these bounds.
 inline void giveSizes(scenes::Light& light, Random& random, double leastMetres, double mostMetres) {
     for (float scenes::Light::*metres : {&scenes::Light::widthMetres, &scenes::Light::heightMetres,
                                          &scenes::Light::lengthMetres, &scenes::Light::radiusMetres})

@@ -1,4 +1,4 @@
-// Area lights as the GPU reads them: their surfaces, where they end, and what culling takes them for.
+// Packed area lights: their surfaces, ranges and culling bounds.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -21,7 +21,7 @@ using scenes::LightType;
 using test::kAreaTypes;
 using test::pack;
 
-/// In sight of the default camera, which looks along -z.
+/// An area light visible to the default camera, which looks along -z.
 scenes::Light surfaceLight(LightType type) {
     scenes::Light light;
     light.type = type;
@@ -62,7 +62,7 @@ TEST(PackedAreaLights, aFlatSurfaceReachesByTwoVectorsWhoseProductPointsWhereItS
         const glm::dvec3 axis(shape.axis), across(shape.attenuation);
         const double a = isDisk ? double(light.radiusMetres) : 0.5 * double(light.widthMetres);
         const double b = isDisk ? double(light.radiusMetres) : 0.5 * double(light.heightMetres);
-        // Roundings of fp32.
+        // Rounding of fp32.
         EXPECT_NEAR(glm::length(axis), a, 2e-7 * a);
         EXPECT_NEAR(glm::length(across), b, 2e-7 * b);
         EXPECT_LT(glm::distance(glm::cross(axis, across) / (a * b), light.directionWS), 4e-7);
@@ -98,7 +98,7 @@ TEST(PackedAreaLights, aPolygonHasItsCornersInPartsOfTheFarthestAndCounterclockw
     EXPECT_LT(glm::distance(glm::dvec2(corners.outline), scenes::middleOf(light.corners) / 2.0), 1e-7);
     EXPECT_EQ(corners.corners[0], glm::vec4(0.75f, 0.0f, 0.5f, 0.25f));
     EXPECT_EQ(corners.corners[1], glm::vec4(0.0f, 1.0f, 0.0f, 0.0f));
-    // The corner that points inwards is in both triangles.
+    // The reflex corner is in both triangles.
     EXPECT_GT(corners.shareEnds.x, 0.0f);
     EXPECT_LT(corners.shareEnds.x, 1.0f);
     EXPECT_EQ(corners.shareEnds.y, 1.0f);
@@ -170,7 +170,7 @@ TEST(AreaLightReach, isItsRangeOrWhereItCanCauseNoMoreThanTheTolerance) {
     panel.color = {0.25f, 0.5f, 0.125f};
     panel.intensity = 6.0f;
     EXPECT_EQ(reachMetres(panel, 0.0), scenes::kInfinity);
-    // In a ball of 2.5 m; 3 cd/m^2 from 12 m^2 cause 1/4 lx at 12 m from it.
+    // The bounding sphere's radius is 2.5 m; 3 cd/m^2 from 12 m^2 cause 1/4 lx at 12 m from it.
     EXPECT_DOUBLE_EQ(reachMetres(panel, 0.25), 14.5);
     panel.rangeMetres = 7.0f;
     EXPECT_EQ(reachMetres(panel, 0.25), 7.0);
@@ -203,7 +203,7 @@ TEST(AreaLightReach, aToleranceCountsThemAsEnded) {
     EXPECT_EQ(pack(lights).truncated.sum(), 1u);
     EXPECT_EQ(pack(lights).everywhere, 1u);
     FrameSettings settings;
-    settings.rangeTolerance = test::pi * 0.25 / 16.0; // 4 m from the disk's ball
+    settings.rangeTolerance = test::pi * 0.25 / 16.0; // 4 m from the disk's bounding sphere
     const PackedLights ended = pack(lights, settings);
     EXPECT_EQ(ended.truncated.ended, 1u);
     EXPECT_NEAR(ended.truncated.longestMetres, 4.5, 1e-12);
@@ -212,7 +212,7 @@ TEST(AreaLightReach, aToleranceCountsThemAsEnded) {
     EXPECT_EQ(ended.texels.back().position.w, pack({lights.back()}, settings).texels.at(0).position.w);
 }
 
-/// A wall of 16x16 pixels, 5 m ahead of the camera, whose normals point any way; one tile.
+/// A wall of 16x16 pixels with random normals, 5 m ahead of the camera; one tile.
 class WallOfNormals {
 public:
     explicit WallOfNormals(test::Random& random) {
@@ -234,7 +234,7 @@ public:
         }
     }
 
-    /// Indices into the scene's lights of those that the tile lists.
+    /// Scene indices of the lights in the tile's list.
     std::vector<int> listed(const std::vector<scenes::Light>& lights, culling::NormalTest test) const {
         scenes::Scene scene;
         scene.lights = lights;
@@ -248,7 +248,7 @@ public:
         culling::BuildInput input{
             {view.constants, lighting}, culls, culling::Method::TileMinmax, {depth_, false}, {}, test, {}};
         input.readNormals = [&] {
-            // Culling space looks along +z.
+            // Culling space has +z ahead.
             return culling::NormalPicture{
                 words_, 3, {culling::NormalForm::Vector, 0, 0}, glm::mat3(1, 0, 0, 0, 1, 0, 0, 0, -1)};
         };
@@ -260,8 +260,8 @@ public:
         return indices;
     }
 
-    /// Whether any place of the light's ball is in front of any pixel's surface that the light reaches, and shines
-    /// there.
+    /// Returns whether a part of the light's bounding sphere is in front of a pixel's surface, within range and on the
+    /// light's emitting side.
     bool mayLight(const scenes::Light& light) const {
         const bool hasFront = scenes::infoOf(light.type).isFlat && !light.isTwoSided;
         for (std::size_t i = 0; i < positions_.size(); ++i) {
@@ -285,7 +285,7 @@ private:
 
 TEST(AreaLightCulling, aListByNormalsNeverLacksALightThatHasAPartInFrontOfASurface) {
     test::Random random(9);
-    std::size_t behind = 0, saved = 0; // lights whose middle is behind though they are needed; those that are left out
+    std::size_t behind = 0, saved = 0; // needed lights whose centre is behind the surface; culled lights
     for (int turn = 0; turn < 20; ++turn) {
         const WallOfNormals wall(random);
         std::vector<scenes::Light> lights;

@@ -54,7 +54,7 @@ glm::vec3 rebuilt(const shared::ViewConstants& c, const Projected& p) {
     return width * across + ahead * glm::vec3(c.forwardLS);
 }
 
-/// A random point of the view volume between two depths, by its place in the picture.
+/// A random point of the view volume between two depths, uniform in the image.
 glm::dvec3 pointInView(test::Random& random, const CameraView& view, const scenes::Camera& camera, double nearest,
                        double farthest) {
     const double depth = random.logarithmic(nearest, farthest);
@@ -76,14 +76,14 @@ TEST(CameraView, depthIsExactlyOneAtTheNearPlaneAndZeroAtTheFarOne) {
         for (const scenes::Camera& camera :
              {perspective(0.1, 100.0), orthographic(0.1, 100.0), orthographic(0.0, 100.0)}) {
             const CameraView view = sizedView(camera, space);
-            EXPECT_NEAR(depthAt(view, camera.nearMetres), 1.0, 1e-12); // double rounding of a rotation
+            EXPECT_NEAR(depthAt(view, camera.nearMetres), 1.0, 1e-12); // rounding of a rotation in double
             EXPECT_NEAR(depthAt(view, camera.farMetres), 0.0, 1e-12);
             EXPECT_GT(depthAt(view, 1.0), depthAt(view, 2.0));
         }
         const CameraView endless = sizedView(perspective(0.1, kEndless), space);
         EXPECT_NEAR(depthAt(endless, 0.1), 1.0, 1e-12);
         EXPECT_NEAR(depthAt(endless, 1e12), 0.0, 1e-12);
-        EXPECT_GT(depthAt(endless, 1e12), 0.0); // a point at any distance is still drawn: 0 is the background
+        EXPECT_GT(depthAt(endless, 1e12), 0.0); // a point at any distance is drawn: 0 is the background
     }
 }
 
@@ -141,14 +141,14 @@ TEST(CameraView, bothLightingSpacesPutAWorldPointAtTheSamePixelAndDepth) {
             const glm::dvec3 pointWS = world.eyeWS + random.direction() * 20.0;
             const glm::dvec4 a = world.clipFromLS * glm::dvec4(world.positionLS(pointWS), 1.0);
             const glm::dvec4 b = eye.clipFromLS * glm::dvec4(eye.positionLS(pointWS), 1.0);
-            ASSERT_LE(glm::distance(a, b), 1e-11); // double rounding of rotations of 20 m
+            ASSERT_LE(glm::distance(a, b), 1e-11); // rounding of rotations of 20 m in double
         }
         EXPECT_EQ(world.constants.worldFromLS, glm::mat4(1.0f));
         EXPECT_EQ(world.constants.clipFromRWS, world.constants.clipFromLS);
         EXPECT_EQ(eye.constants.clipFromRWS, world.constants.clipFromRWS) << "vertices lie where they lie";
         const glm::vec3 forwardWS = glm::mat3(eye.constants.worldFromLS) * glm::vec3(eye.constants.forwardLS);
         EXPECT_LE(glm::distance(forwardWS, glm::vec3(world.constants.forwardLS)), 1e-6f);
-        EXPECT_LE(glm::distance(eye.forwardLS, glm::dvec3(0.0, 0.0, -1.0)), 1e-15); // double rounding of a rotation
+        EXPECT_LE(glm::distance(eye.forwardLS, glm::dvec3(0.0, 0.0, -1.0)), 1e-15); // rounding of a rotation in double
     }
 }
 
@@ -176,12 +176,12 @@ TEST(CameraView, frustumPlanesEncloseTheVisiblePoints) {
     }
 }
 
-/// A box of a metre about the origin.
+/// A cube with sides of a metre by default.
 SurfaceBounds cube(const glm::dvec3& centerWS = glm::dvec3(0.0), double halfMetres = 0.5) {
     return {{centerWS - halfMetres, centerWS + halfMetres}, halfMetres * std::sqrt(3.0)};
 }
 
-/// An eye on the axis through (1, 1, 1) that looks at the origin from so far, with a lens that sees 0.9 m there.
+/// A camera on the axis (1, 1, 1), looking at the origin, where its view has a half height of 0.9 m.
 scenes::Camera farCamera(double eyeMetres, scenes::Projection projection = scenes::Projection::Perspective) {
     scenes::Camera camera;
     camera.worldFromCamera = scenes::worldFromLookAt(glm::normalize(glm::dvec3(1.0)) * eyeMetres, glm::dvec3(0.0));
@@ -207,8 +207,8 @@ TEST(CameraView, pointsOfAMetreKeepTheirDigitsFromAnyDistance) {
                     const Projected projected = project(view, pointLS);
                     ASSERT_GT(projected.depth, 0.0f);
                     ASSERT_LT(projected.depth, 1.0f);
-                    // Some eight roundings of 2^-24 of an interval of 2.2 m, and of a pixel's place of up to 641 pixels
-                    // that are 2.8 mm wide each. At 1e9 m doubles themselves have steps of 1.2e-7 m.
+                    // About eight roundings of 2^-24, of a depth interval of 2.2 m and of pixel positions up to 641
+                    // pixels of 2.8 mm each. At 1e9 m, doubles have steps of 1.2e-7 m.
                     const double bound = 8.0 * 0x1p-24 * (2.2 + 1.8) + 4e-16 * eyeMetres;
                     ASSERT_LE(glm::distance(glm::dvec3(rebuilt(view.constants, projected)), pointLS), bound)
                         << eyeMetres << " m";
@@ -230,7 +230,7 @@ TEST(CameraView, anEyeAmongSurfacesHasItsOwnDepths) {
 
 TEST(CameraView, invisibleSurfacesDoNotChangeTheDepthInterval) {
     const std::vector<SurfaceBounds> bounds{cube(), cube({40.0, -40.0, 0.0}), cube({600.0, 600.0, 600.0})};
-    scenes::Camera camera = farCamera(1e3); // 1039 m before the last of them
+    scenes::Camera camera = farCamera(1e3); // 39 m before the last box, which is behind the eye
     const auto depthsOf = [&](std::size_t count) {
         return makeCameraView(camera, kSize, LightingSpace::World, glm::vec3(0.0f), {bounds.data(), count}).depths;
     };

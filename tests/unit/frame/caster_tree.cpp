@@ -17,15 +17,15 @@ glm::vec3 place(const glm::uvec4& texel) {
     return glm::uintBitsToFloat(glm::uvec3(texel));
 }
 
-/// What a walk that enters every box meets.
+/// Triangles found by a walk that enters every box.
 struct Met {
     std::size_t triangles = 0, masked = 0;
 };
-/// Expects that boxes hold what lies below them, and that a walk goes through all nodes once.
+/// Expects boxes to enclose the nodes below them, and a walk to visit each node once.
 Met walkAll(const CasterTree& tree) {
     Met met;
     std::uint32_t node = 0;
-    std::vector<std::uint32_t> open; ///< nodes whose boxes hold what comes
+    std::vector<std::uint32_t> open; ///< nodes whose boxes enclose the next node
     while (node < tree.space.nodes) {
         const glm::uvec4 low = tree.texels[2 * node], high = tree.texels[2 * node + 1];
         EXPECT_GT(low.w, node);
@@ -58,7 +58,7 @@ TEST(CasterTree, holdsEveryTriangleOfEveryCasterInTheBoxesAboveIt) {
     const Met met = walkAll(treeOf(scene));
     EXPECT_GT(met.masked, 0u);
     EXPECT_LT(met.masked, met.triangles);
-    // But those at a sphere's poles, which have no area.
+    // Triangles at a sphere's poles have no area and are missing.
     EXPECT_LE(met.triangles, scenes::casterCounts(scene).triangles);
     EXPECT_GE(met.triangles, scenes::casterCounts(scene).triangles * 9 / 10);
 }

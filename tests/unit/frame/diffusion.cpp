@@ -19,10 +19,10 @@ glm::dvec3 weightOf(const std::vector<DiffusionLevel>& levels) {
     return sum;
 }
 
-/// Narrow enough to show every Gaussian of skin.
+/// A texel width that resolves every Gaussian of skin.
 constexpr double kTexelMetres = 1e-4;
 
-/// Of the light that spreads, by channel: the mean square of a coordinate of its way.
+/// Mean square of one coordinate of the diffusion distance, per channel.
 glm::dvec3 meanSquare(const std::vector<DiffusionLevel>& levels) {
     double variance = frame::texelVariance(kTexelMetres, false);
     glm::dvec3 mean(0.0);
@@ -47,14 +47,14 @@ TEST(DiffusionLevels, addTheProfilesGaussiansUp) {
         EXPECT_NEAR(variance, 1e-6 * variances[i], 1e-12);
         EXPECT_NEAR(levels[i].weight.r, red[i], 2e-3);
     }
-    skin.scaleMetres = 0.1f; // a model ten times as large as the real thing
+    skin.scaleMetres = 0.1f; // a model at ten times its real size
     EXPECT_NEAR(frame::lightSpread(skin, 8, 1e-4).levels[0].varianceSquareMetres, 6.4e-7 - 1e-8 / 6.0, 1e-12);
 }
 
 TEST(DiffusionLevels, fewerKeepTheLightAndHowFarItSpreadsOnTheMean) {
     const scenes::Subsurface skin;
     const glm::dvec3 whole = meanSquare(frame::lightSpread(skin, 8, kTexelMetres).levels);
-    // Widths are common to all channels, so that red, the one that spreads farthest, gives some of it to the others. By
+    // All channels share the widths, so red, which diffuses farthest, passes some variance to the others. Figures from
     // the published numbers alone.
     for (const auto& [most, redShare] : {std::pair(5, 0.9972), {4, 0.9844}, {3, 0.9645}, {2, 0.4904}, {1, 0.3557}}) {
         const std::vector<DiffusionLevel> levels = frame::lightSpread(skin, most, kTexelMetres).levels;
@@ -103,13 +103,13 @@ TEST(DiffusionLevels, wideJumpsHaveStepsBetween) {
     EXPECT_NEAR(variance, 1.0, 1e-6);
     EXPECT_EQ(levels.back().weight, glm::dvec3(1.0));
     EXPECT_EQ(weightOf(levels), glm::dvec3(1.0));
-    // What a narrow Gaussian has spread is not smooth at the width of a wide one.
+    // The result of a narrow Gaussian is not smooth at the width of a wide one.
     wide.profile = {{0.5f, glm::vec3(0.05f)}, {320.0f, glm::vec3(0.95f)}}; // 0.71 and 17.9 mm
     const std::vector<DiffusionLevel> two = frame::lightSpread(wide, 8, texelMetres).levels;
     EXPECT_EQ(two.size(), 2u) << "every texel is a tap of both";
 }
 
-/// A square of skin with sides of a metre, whose coordinates 0 to 1 lie on the texels within the border.
+/// A square of skin with sides of a metre, whose texture coordinates 0 to 1 cover the texels within the border.
 TEST(SpreadingSpec, measuresTexelsWhereTheAtlasLaysThem) {
     const scenes::Scene scene = scenes::loadScene("diffusion_truth");
     const std::vector<frame::SpreadingObject> objects = frame::spreadingObjects(scene, {}, frame::surfaceBounds(scene));
@@ -126,7 +126,7 @@ TEST(SpreadingSpec, measuresTexelsWhereTheAtlasLaysThem) {
             EXPECT_GT(atlas.borderTexels, 0);
             const double texelMetres = 1.0 / (atlas.placeOf({1.0f, 0.0f}).x - atlas.placeOf({0.0f, 0.0f}).x);
             const double shown = frame::texelVariance(texelMetres, isHalved);
-            // The narrowest Gaussian that texels do not show already.
+            // The narrowest Gaussian that is wider than a texel's filter.
             const double millimetre = 1e-3 / double(skin.scaleMetres);
             double variance = 0.0;
             for (const scenes::DiffusionGaussian& gaussian : scenes::profileOf(skin)) {
@@ -141,7 +141,7 @@ TEST(SpreadingSpec, measuresTexelsWhereTheAtlasLaysThem) {
     }
 }
 
-/// The first level spreads all but what a texel itself shows; the others hand on to each other.
+/// The first level diffuses all but the variance of a texel; each further level continues from the previous one.
 TEST(DiffusionLevels, reachFromOneWidthToTheNext) {
     const frame::LightSpread spread = frame::lightSpread(scenes::Subsurface{}, 8, kTexelMetres);
     double before = 0.0;

@@ -22,7 +22,7 @@ TEST(TileSet, rectanglesCoverItAndNothingElseOnce) {
         TileSet set(kTiles);
         for (int i = 0; i < kTiles * kTiles; ++i)
             if (std::bernoulli_distribution(share)(random)) set.add(i);
-        constexpr int kCutSide = kSide - 5; // of the last tiles only some texels are there
+        constexpr int kCutSide = kSide - 5; // cuts off part of the last tiles
         std::vector<int> covered(std::size_t(kCutSide) * std::size_t(kCutSide), 0);
         for (const gpu::Rectangle& rectangle : set.rectangles(kDiffusionTileTexels, kCutSide))
             for (int v = rectangle.y; v < rectangle.y + rectangle.height; ++v)
@@ -75,7 +75,7 @@ scenes::Mesh globe(int columns, int rows) {
     return mesh;
 }
 
-/// A globe and its tiles.
+/// A globe with its atlas and tiles.
 struct TiledGlobe {
     explicit TiledGlobe(int columns, const glm::dmat4& worldFromObject = glm::dmat4(1.0))
         : mesh(globe(columns, columns / 2)), atlas(makeUvAtlas(mesh, worldFromObject, kSide, 8, 16)),
@@ -150,11 +150,11 @@ TEST(DiffusionTiles, mostOfWhatFacesAwayOrLiesOutsideIsLeftOut) {
         return double(seenTiles(tiles, view, 0.0, false).count()) / double(usedTiles(tiles).count());
     };
     const auto perspective = scenes::Projection::Perspective;
-    // Three metres away a third of the sphere is seen; tiles are a sixteenth of the way around.
+    // From three metres a third of the sphere is visible; a tile spans a sixteenth of the circumference.
     EXPECT_LT(shareOf(cameraAt({0.0, 0.0, 3.0}, glm::dvec3(0.0), perspective)), 0.66);
     EXPECT_LT(shareOf(cameraAt({0.0, 0.0, 1.3}, {0.0, 0.0, 0.0}, perspective)), 0.3);
     EXPECT_EQ(shareOf(cameraAt({0.0, 0.0, 3.0}, {0.0, 0.0, 9.0}, perspective)), 0.0) << "behind the viewer";
-    // So far away that triangles are smaller than pixels, rounding may turn any of them.
+    // Where triangles are smaller than pixels, rounding may flip any of them.
     EXPECT_EQ(shareOf(cameraAt({0.0, 0.0, 3000.0}, glm::dvec3(0.0), perspective)), 1.0);
 }
 
@@ -188,11 +188,11 @@ TEST(DiffusionTiles, workGrowsByWhatEachPassReads) {
     }
     EXPECT_TRUE(holds(work.levels[0].alongV, work.levels[1].fill));
     EXPECT_TRUE(holds(work.light, work.levels[0].fill));
-    // Steps are 2 pi / 240 m at the middle, rows half as long: 3.5 standard deviations of 32 mm are 5 and 9 texels.
+    // Texels are 2 pi / 240 m wide at the equator and half as high: 3.5 deviations of 32 mm are 5 and 9 texels.
     EXPECT_LE(work.light.count(), 15u);
-    // As wide as the object: everything.
+    // A Gaussian as wide as the object needs every tile.
     EXPECT_EQ(diffusionWork(tiles, {1.0}, store).light.count(), TileSet(kTiles, true).count());
-    // Past the seam of u, which lies half a tile within the atlas, light goes on at the other end.
+    // Light diffuses across the seam of u, which lies half a tile within the atlas, to the other end.
     TileSet seam(kTiles);
     seam.add(8 * kTiles);
     ASSERT_FALSE(atlas.at(4, 130).isCovered);
@@ -227,7 +227,7 @@ TEST(DiffusionMemory, knowsTilesForTheKeyTheyWereComputedUnder) {
     EXPECT_EQ(memory.missing(1, 9, all).count(), 4u);
 }
 
-/// Tiles that lie apart: each is computed from itself.
+/// Separate tiles: each depends on itself alone.
 std::vector<DiffusionTile> tilesApart(int side) {
     std::vector<DiffusionTile> tiles(std::size_t(side) * std::size_t(side));
     for (DiffusionTile& tile : tiles) tile.boxWS.extend(glm::dvec3(0.0));
@@ -272,7 +272,7 @@ TEST(DiffusionMemory, aLimitedFrameTakesTilesUntilAllAreThere) {
     EXPECT_TRUE(memory.next(0, 8, tiles, {}, all).blank.isEmpty());
 }
 
-/// Of one object whose tiles all are seen.
+/// The schedule's entry of an object whose tiles are all visible.
 DiffusionSchedule::Object objectOf(const std::vector<DiffusionTile>& tiles, int side, std::uint64_t key) {
     return {{}, key, &tiles, TileSet(side, true)};
 }

@@ -26,7 +26,7 @@ CameraView defaultView(LightingSpace space = LightingSpace::World) {
     return viewOf(camera, space);
 }
 
-/// Opaque, masked and blended materials over nodes of which some are mirrored, and a mesh without a triangle.
+/// Opaque, masked and blended materials on nodes, some of them mirrored, and a mesh without triangles.
 scenes::Scene mixedScene() {
     scenes::Scene scene = scenes::tinyScene();
     scene.materials.resize(4);
@@ -120,7 +120,7 @@ TEST(DrawList, anEmptySceneDrawsNothing) {
     EXPECT_TRUE(view.opaque.empty() && view.transparent.empty());
 }
 
-/// The identity of a draw in a view: the draw and the rows it is drawn with.
+/// Identifies each draw of the batches by its index and an entry of its rows.
 std::vector<std::pair<int, float>> drawn(const ViewDraws& view, const std::vector<Batch>& batches) {
     std::vector<std::pair<int, float>> result;
     for (const Batch& batch : batches)
@@ -129,7 +129,7 @@ std::vector<std::pair<int, float>> drawn(const ViewDraws& view, const std::vecto
     return result;
 }
 
-/// Whether some vertex of the box's corners, or the eye in it, could show: by points inside the box, brute force.
+/// Returns whether any of a grid of points in the box is within the four sides of the view, in double precision.
 bool someOfItIsInside(const scenes::Box3& box, const CameraView& view) {
     constexpr int kSteps = 8;
     for (int x = 0; x <= kSteps; ++x)
@@ -143,8 +143,8 @@ bool someOfItIsInside(const scenes::Box3& box, const CameraView& view) {
 }
 
 TEST(ViewDraws, drawsThatRoundingMayMoveIntoTheViewAreKept) {
-    // Vertices a thousand kilometres from their object's origin, which single precision moves by centimetres: beside
-    // the frustum of 45 degrees by 2 cm, and by 200 m.
+    // Vertices 1000 km from their object's origin, which single precision moves by centimetres. They are 2 cm and 200 m
+    // outside the frustum of 45 degrees.
     scenes::Scene scene = scenes::tinyScene();
     for (glm::vec3& position : scene.meshes[0].positionsOS) position = glm::vec3(1e6f, 0.0f, 0.0f) + 0.01f * position;
     const CameraView view = viewOf({});
@@ -155,7 +155,7 @@ TEST(ViewDraws, drawsThatRoundingMayMoveIntoTheViewAreKept) {
     }
 }
 
-/// Whether a vertex is inside the four sides of the view where passes/geometry.vert puts it, in single precision.
+/// Returns whether passes/geometry.vert, in single precision, puts a vertex inside the four sides of the view.
 bool isShownInside(const DrawRows& rows, const glm::vec3& positionOS, const CameraView& view) {
     const glm::vec4 object(positionOS, 1.0f);
     const glm::vec3 positionRWS(glm::dot(rows.position[0], object), glm::dot(rows.position[1], object),
@@ -169,8 +169,8 @@ glm::dmat4 randomPlace(test::Random& random, double farthestMetres) {
            glm::rotate(glm::dmat4(1.0), random.between(0.0, 6.0), random.direction());
 }
 
-/// Objects of one vertex each, at a view depth between these, on the sides of the view and a little beyond: at most by
-/// the share that single precision has of the distances on the way there.
+/// Objects of one vertex each at view depths within these bounds, on the sides of the view or just beside them: by at
+/// most 3e-7 of the distances summed on the way, about the error of single precision.
 struct SideScene {
     scenes::Scene scene = scenes::tinyScene();
     SideScene(test::Random& random, const scenes::Camera& camera, const CameraView& view, double nearestMetres,
@@ -198,7 +198,7 @@ struct SideScene {
     }
 };
 
-/// Expects the draws whose vertex shows inside to be kept. Returns how many of them lie outside without rounding.
+/// Expects draws whose vertex is inside the view to be kept. Returns how many are inside by rounding alone.
 int expectShownDrawsKept(const scenes::Scene& scene, const CameraView& view) {
     const DrawList list = makeDrawList(scene);
     const ViewDraws whole = makeViewDraws(list, view, false), culled = makeViewDraws(list, view, true);
@@ -242,7 +242,7 @@ TEST(ViewDraws, aVertexThatRoundingShowsInAViewFromAfarIsNeverCulled) {
         EXPECT_GT(glm::distance(view.originWS, view.eyeWS), 0.5 * distanceMetres) << "lighting space is at the eye";
         const SideScene sides(random, camera, view, distanceMetres - radiusMetres, distanceMetres + radiusMetres);
         moved += expectShownDrawsKept(sides.scene, view);
-        // Twice as far across the view lies outside by more than rounding moves anything.
+        // A vertex twice as far from the axis is outside by more than any rounding.
         scenes::Scene outside = scenes::tinyScene();
         outside.nodes[0].parentFromNode = glm::translate(
             glm::dmat4(1.0), glm::dvec3(camera.worldFromCamera *
@@ -281,7 +281,7 @@ TEST(ViewDraws, visibleDrawsKeepOrderAndRowsAndTheRestIsCulled) {
     EXPECT_GT(double(left), 0.5 * double(all)) << "most of a sphere of 20 m around lies outside a view of 45 degrees";
 }
 
-/// The pixels of a view of boxes of half a metre at these places in view space.
+/// The pixel bounds of boxes of half a metre at these view-space positions.
 PixelArea pixelsOfBoxes(const std::vector<glm::dvec3>& placesVS, const scenes::Camera& camera, const CameraView& view) {
     scenes::Scene scene = scenes::tinyScene();
     scene.meshes[0].positionsOS = {glm::vec3(-0.25f), glm::vec3(0.25f), glm::vec3(-0.25f, 0.25f, -0.25f)};
@@ -303,7 +303,7 @@ TEST(ViewDraws, opaquePixelsEncloseTheDrawsThatAreSeenClosely) {
         const double ahead = random.between(2.0, 50.0);
         const glm::dvec3 place(random.between(-1.0, 1.0) * ahead, random.between(-0.5, 0.5) * ahead, -ahead);
         const PixelArea area = pixelsOfBoxes({place}, camera, view);
-        // The box is nearest and farthest at 0.25 m before and behind its middle.
+        // The box extends 0.25 m before and behind its centre.
         for (const int axis : {0, 1}) {
             const double middle = axis == 0 ? 100.0 : 50.0;
             double low = 1e9, high = -1e9;
@@ -337,7 +337,7 @@ TEST(ViewDraws, opaquePixelsAreAllWhereABoxReachesBehindTheEyeAndNoneWhereNothin
     EXPECT_TRUE(pixelsOfBoxes({{0.0, 0.0, 10.0}}, camera, view).empty()) << "behind the eye";
 }
 
-/// The one draw's rows for a node with this transform.
+/// The rows of the only draw, for a node with this transform.
 DrawRows rowsOf(const glm::dmat4& worldFromObject, const CameraView& view) {
     scenes::Scene scene = scenes::tinyScene();
     scene.nodes[0].parentFromNode = worldFromObject;
@@ -379,7 +379,7 @@ TEST(DrawList, normalRowsAgreeWithTheInverseTransposeUpToLength) {
             const glm::dvec3 expected = glm::normalize(
                 view.lsFromWorld * (glm::transpose(glm::inverse(glm::dmat3(worldFromObject))) * normalOS));
             const glm::dvec3 found = glm::normalize(apply(rows.normal, glm::dvec4(normalOS, 0.0)));
-            // fp32 entries of order one; a stretch of 50:1 may cancel that much of them.
+            // fp32 entries of order one; a stretch of 50:1 may amplify their rounding by cancellation.
             ASSERT_LE(glm::distance(found, expected), 50 * 2e-7)
                 << "scale " << scale.x << " " << scale.y << " " << scale.z;
             ASSERT_EQ(rows.normal[0].w, scale.x * scale.y * scale.z < 0.0 ? -1.0f : 1.0f);

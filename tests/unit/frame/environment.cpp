@@ -24,10 +24,10 @@ double meanOf(const DividedOctahedron& level, int channel = 0) {
     double sum = 0.0, weights = 0.0;
     const auto cells = [&](int at) {
         return at == 0 || at == level.side ? 0.5 : 1.0;
-    }; // around a corner, along an axis
+    }; // fraction of the cells around a corner, per axis
     for (int y = 0; y <= level.side; ++y)
         for (int x = 0; x <= level.side; ++x) {
-            // The solid angle of a piece of a plane falls by the cube of its distance.
+            // The solid angle of a face's element falls with the cube of its distance.
             const glm::dvec3 direction = directionOf(DividedOctahedron::codeOfCorner(x, y, level.side));
             const double inverse = std::abs(direction.x) + std::abs(direction.y) + std::abs(direction.z);
             const double weight = cells(x) * cells(y) * 4.0 / (level.side * level.side) * std::pow(inverse, 3.0);
@@ -42,10 +42,10 @@ TEST(EnvironmentFilter, directionsComeBackFromTheSquareAndEdgesMeet) {
     for (int i = 0; i < 200; ++i) {
         const double up = 1.0 - (i + 0.5) / 100.0, turn = 2.4 * i, level = std::sqrt(1.0 - up * up);
         const glm::dvec3 direction(level * std::cos(turn), up, level * std::sin(turn));
-        // Codes are found in single precision, by a few operations of 6e-8 each.
+        // Codes are computed in single precision, with a few roundings of 6e-8.
         EXPECT_LT(glm::distance(directionOf(codeOf(glm::vec3(direction))), direction), 1e-6);
     }
-    // Corners on the square's edges that are one place of the sphere hold one value.
+    // Corners on the square's edges that map to one direction hold one value.
     const FilteredEnvironment filtered = filterEnvironment(greyMap(64, 32, [](int x, int y) { return x + 100.0 * y; }));
     for (const DividedOctahedron* level : {&filtered.levels.front(), &filtered.levels.back(), &filtered.irradiance}) {
         const int last = level->side;
@@ -88,7 +88,7 @@ TEST(LatitudeMap, aCoarserOneHoldsTheLightOfEachTexelAtItsPlace) {
                     largest = glm::max(largest, sizeOf(coarse, y));
                 }
             ASSERT_NEAR(light, 1e5 * fine.solidAngle(row), 1e-6 * light);
-            // What it lies in spreads it, by no more than their sizes differ.
+            // Coarser texels move its centroid by at most half the difference of the texel sizes.
             const glm::dvec2 moved = glm::abs(middle / light - middleOf(fine, column, row));
             const glm::dvec2 most = 0.5 * (largest - sizeOf(fine, row)) + 1e-6;
             ASSERT_LE(moved.x, most.x);
@@ -109,10 +109,10 @@ TEST(EnvironmentMap, samplesLieAsDenselyAsTheirTexelsSayAndMissNoLight) {
             densities += solidAngle * double(texels.at(x, y).a);
         }
     EXPECT_NEAR(densities, 1.0, 1e-6);
-    // Light between a lit texel and a dark one is there, and so are samples of it.
+    // Interpolation lights the space between a lit and a dark texel, which therefore has samples.
     EXPECT_GT(texels.at(3, 13).a, 0.0f);
     EXPECT_EQ(texels.at(3, 15).a, 0.0f);
-    // The mean of radiance over density is the light of the whole map, whatever run of samples is taken.
+    // The mean of radiance over density is the light of the whole map, for any run of samples.
     const std::vector<glm::vec4> samples = makeEnvironmentSamples(texels, summed);
     double whole = 0.0;
     for (int y = 0; y < 16; ++y)
@@ -130,8 +130,8 @@ TEST(EnvironmentMap, samplesLieAsDenselyAsTheirTexelsSayAndMissNoLight) {
     }
 }
 
-/// Interpolation takes a bright texel's light to its neighbours, which are sampled as densely as that says: by the mean
-/// of the interpolated radiance over each texel, which a sum over 16 x 16 places finds too.
+/// Interpolation extends a bright texel's light to its neighbours. The sampling density is the mean interpolated
+/// radiance of each texel, checked against a sum over 16 x 16 points.
 TEST(EnvironmentMap, texelsAreSampledByTheLightThatIsInterpolatedInThem) {
     const scenes::Image picture = greyMap(16, 8, [](int x, int y) { return x == 5 && y == 3 ? 10.0 : 0.0; });
     std::vector<double> summed;
@@ -165,7 +165,7 @@ TEST(EnvironmentFilter, evenLightStaysEvenAndIrradianceIsPiOfIt) {
 }
 
 TEST(EnvironmentFilter, isGivenUpByWhatItsProgressThrows) {
-    std::atomic<double> most = 0.0; // that was told after that
+    std::atomic<double> most = 0.0; // largest progress reported after the exception
     std::atomic<bool> isOver = false;
     const auto progress = [&](double done) {
         if (isOver) most = std::max(most.load(), done);
@@ -179,7 +179,7 @@ TEST(EnvironmentFilter, isGivenUpByWhatItsProgressThrows) {
 }
 
 TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
-    // 1e5 in one texel, near an edge of two faces and of the map.
+    // 1e5 in one texel, near an edge between two faces and an edge of the map.
     const scenes::Image map = greyMap(512, 256, [](int x, int y) { return x == 511 && y == 120 ? 1e5 : 0.01; });
     const FilteredEnvironment filtered = filterEnvironment(map);
     double light = 0.01;
@@ -187,20 +187,20 @@ TEST(EnvironmentFilter, everyLevelHoldsTheLightOfABrightTexelWithoutFireflies) {
     const int levels = int(filtered.levels.size());
     for (int i = 0; i < levels; ++i) {
         const DividedOctahedron& level = filtered.levels[std::size_t(i)];
-        // A lobe moves light but keeps its sum, as far as triangles between corners can tell.
+        // A lobe preserves the total light, up to the error of interpolation between corners.
         EXPECT_NEAR(meanOf(level), light, 0.035 * light) << i;
-        // The lamp seen in the middle of the lobe: by its density D / 4 over the mean of the cosine, which is 1 for
-        // sharp lobes and 1/4 where they are as broad as can be. The lamp stands near a corner of the octahedron, where
-        // texels are three times as small as on average, so that samples lie apart: a corner that has the lamp in the
-        // very middle of its lobe sees up to 1.54 of that.
+        // Upper bound: the lamp at the centre of the lobe, with density D / 4 over the mean cosine, which is 1 for
+        // sharp lobes and 1/4 for the broadest. The lamp is near a corner of the octahedron, where texels are three
+        // times smaller than on average and samples lie apart: a corner with the lamp exactly at the centre of its lobe
+        // receives up to 1.54 times that.
         const double alpha = alphaOfLevel(i);
         const double most = 1.6 * (light - 0.01) / (alpha * alpha) * (1.0 + 3.0 * alpha) + 0.01;
         for (const glm::vec3& corner : level.corners) ASSERT_LE(double(corner.x), most) << i;
     }
 }
 
-/// Wherever it stands among the octahedron's texels: one look a texel would find up to a fifth more or less. A texel a
-/// channel.
+/// The sum must not depend on the texel's position in the octahedron: a single sample per texel would be off by up to a
+/// fifth. Each channel has one bright texel.
 TEST(EnvironmentFilter, theLightOfABrightTexelDoesNotHangOnItsPlace) {
     const glm::ivec2 places[] = {{57, 31}, {130, 80}, {171, 52}};
     const scenes::Image map = scenes::builtin::drawRadiance("three", 256, 128, [&](int x, int y) {
@@ -212,7 +212,7 @@ TEST(EnvironmentFilter, theLightOfABrightTexelDoesNotHangOnItsPlace) {
     for (int c = 0; c < 3; ++c) {
         const double top = pi * places[c].y / 128.0, bottom = pi * (places[c].y + 1) / 128.0;
         const double light = 1e4 * 2.0 * pi / 256.0 * (std::cos(top) - std::cos(bottom)) / (4.0 * pi);
-        for (const std::size_t level : {5u, 7u}) // wide enough to be summed up by corners
+        for (const std::size_t level : {5u, 7u}) // wide enough for sums over corners
             EXPECT_NEAR(meanOf(filtered.levels[level], c), light, 0.02 * light) << "texel " << c << ", level " << level;
     }
 }
@@ -245,8 +245,8 @@ TEST(EnvironmentFilter, levelsLieInTheAtlasWhereShadersLookThemUp) {
     EXPECT_EQ(texels, 8u * 65 * 65 + 2u * 33 * 33 + 65 * 65);
 }
 
-/// The error of irradiance by harmonics up to an order, against the sum over all texels: what docs/environment.md
-/// tells. A sun is the worst that there is.
+/// Error of the irradiance from harmonics up to an order, against the sum over all texels; docs/environment.md states
+/// it. A sun is the worst case.
 TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
     const scenes::Image sun = greyMap(256, 128, [](int x, int y) { return x == 100 && y == 50 ? 1e5 : 0.0; });
     const double solidAngle = 2.0 * pi / 256.0 * (std::cos(pi * 50 / 128.0) - std::cos(pi * 51 / 128.0));
@@ -267,7 +267,7 @@ TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
         EXPECT_LT(worst, 0.7 * before) << order;
         before = worst;
     }
-    EXPECT_LE(before, 1e-2); // where the sun stands at the horizon
+    EXPECT_LE(before, 1e-2); // where the sun is at the horizon
 }
 
 TEST(EnvironmentFilter, aMapOfMoreColumnsOrRowsThanNeededIsFilteredAsTheCoarserOne) {

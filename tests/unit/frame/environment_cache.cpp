@@ -1,4 +1,4 @@
-// The file that a filtered environment is kept in.
+// The cache file of a filtered environment.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -39,7 +39,7 @@ TEST(EnvironmentCache, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     std::filesystem::resize_file(file.path(), 1000);
     EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.corners, fresh.irradiance.corners);
     EXPECT_TRUE(computed);
-    // One bit is enough, in the middle as in the last number.
+    // A single flipped bit invalidates the file, in the middle or in the last number.
     const auto size = std::streamoff(std::filesystem::file_size(file.path()));
     for (const std::streamoff at : {size / 2, size - 1}) {
         computed = false;
@@ -51,7 +51,7 @@ TEST(EnvironmentCache, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
         EXPECT_EQ(cachedEnvironment(map, folder.path(), note).irradiance.corners, fresh.irradiance.corners);
         EXPECT_TRUE(computed) << at;
     }
-    // Another map of the same shape has another file, and so have the same texels in another shape.
+    // Another map of the same size uses another file, and so do the same texels at another size.
     scenes::Image upright = map;
     std::swap(upright.width, upright.height);
     for (const scenes::Image& other : {greyMap(32, 16, [](int x, int) { return x; }), upright}) {
@@ -61,7 +61,7 @@ TEST(EnvironmentCache, whatWasFilteredOnceIsReadAgainUnlessItsFileIsDamaged) {
     }
 }
 
-/// The hash of 64 bits that was the key of version 10, of the first words of a map's texels: each step can be undone.
+/// The 64-bit hash of version 10's cache key, over the first words of a map's texels. Each step is invertible.
 std::uint64_t wordHash(const scenes::Image& map, std::size_t words) {
     std::uint64_t value = 0x9e3779b97f4a7c15u ^ 10u;
     const auto add = [&](std::uint64_t word) {
@@ -84,7 +84,7 @@ TEST(EnvironmentCache, aMapThatIsMadeForTheKeyOfAnotherIsNotReadInItsPlace) {
     scenes::Image crafted = greyMap(32, 16, [](int x, int y) { return 9.0 + x + 0.1 * y; });
     const std::size_t words = map.texels.size() / 8;
     ASSERT_EQ(8 * words, map.texels.size());
-    // Before the last word both states are known, and what that word must be follows: (state ^ word) is the same.
+    // The states before the last word are known, so the colliding last word follows: (state ^ word) must be equal.
     std::uint64_t last = 0;
     std::memcpy(&last, map.texels.data() + 8 * (words - 1), 8);
     last ^= wordHash(map, words - 1) ^ wordHash(crafted, words - 1);
@@ -100,7 +100,7 @@ TEST(EnvironmentCache, aMapThatIsMadeForTheKeyOfAnotherIsNotReadInItsPlace) {
     const auto note = [&](double) { computed = true; };
     const FilteredEnvironment fresh = cachedEnvironment(map, folder.path() / "a", note);
     EXPECT_TRUE(std::exchange(computed, false));
-    // Whatever the name of its file, too.
+    // Nor is a file with the right name but another map's content used.
     const std::filesystem::path wrong = onlyFileIn("b");
     for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "a")) {
         EXPECT_EQ(entry.path().stem().string().size(), std::string("environment-").size() + 64);
@@ -145,7 +145,7 @@ TEST(EnvironmentCache, ofManyFilesThoseUsedLastAreKeptAndNoFileOfOthersIsRemoved
         EXPECT_EQ(std::filesystem::exists(fileOf(number)), number < 20 || number >= 29) << number;
 }
 
-/// Of the size that people's maps have.
+/// A map of a common size.
 TEST(EnvironmentCacheSlow, aMapOf2048ColumnsTakesFiveSecondsOfTwoCoresAndReadAgainATwentiethOfASecond) {
 #ifdef __SANITIZE_ADDRESS__
     constexpr double kSlower = 20.0; // sanitizers take several times as long
@@ -156,7 +156,7 @@ TEST(EnvironmentCacheSlow, aMapOf2048ColumnsTakesFiveSecondsOfTwoCoresAndReadAga
     test::TempFolder folder;
     const scenes::Image map =
         greyMap(2048, 1024, [](int x, int y) { return 1.0 + std::sin(0.01 * x) * std::cos(0.03 * y); });
-    const std::clock_t start = std::clock(); // of all threads together: other programs do not count
+    const std::clock_t start = std::clock(); // CPU time of all threads: other programs do not count
     const FilteredEnvironment fresh = cachedEnvironment(map, folder.path());
     const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC / kCores;
     double secondsAgain = kMostSeconds;
@@ -172,7 +172,7 @@ TEST(EnvironmentCacheSlow, aMapOf2048ColumnsTakesFiveSecondsOfTwoCoresAndReadAga
 }
 
 TEST(EnvironmentCache, aFolderThatCannotBeWrittenIsToldOnce) {
-    takeCacheFault(); // of other tests
+    takeCacheFault(); // clears faults of other tests
     test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "file";
     std::ofstream(file) << "in the way";

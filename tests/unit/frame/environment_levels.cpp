@@ -1,4 +1,4 @@
-// How wide the lobes are that levels of an environment were filtered by.
+// Lobe widths of the levels of a filtered environment.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,11 +13,11 @@
 namespace tessera::frame {
 namespace {
 
-/// Of light that a GGX lobe reflects straight back, about the normal, weighted by the cosine of the light. Facets lean
-/// by angles whose tangent is alpha sqrt(q / (1 - q)) where q is the share of them that leans less, by their area along
-/// the normal (Walter 2007); light leaves at twice their angle.
+/// Mean cosine of light that a GGX lobe reflects along the normal, weighted by the cosine of the light. The
+/// microfacets' quantile q, by area projected along the normal, tilts by an angle of tangent alpha sqrt(q / (1 - q))
+/// (Walter 2007); light is reflected at twice that angle.
 double meanCosineOfLevel(double alpha) {
-    constexpr int kFacets = 100000; // errs by less than 1e-6
+    constexpr int kFacets = 100000; // error below 1e-6
     double cosines = 0.0, squares = 0.0;
     for (int i = 0; i < kFacets; ++i) {
         const double share = (i + 0.5) / kFacets, tangent2 = alpha * alpha * share / (1.0 - share);
@@ -28,7 +28,7 @@ double meanCosineOfLevel(double alpha) {
     return squares / cosines;
 }
 
-/// A map of such light: an axis a channel.
+/// A map whose radiance is linear along an axis, another axis per channel.
 constexpr double kSlope = 0.2;
 FilteredEnvironment filteredSlopes(int width, int height) {
     return filterEnvironment(scenes::builtin::drawRadiance("slopes", width, height, [&](int x, int y) {
@@ -46,7 +46,7 @@ void expectSlope(const DividedOctahedron& level, double mean, double steepness, 
         }
 }
 
-/// Levels are by the same factor wider than the one before, from the least to 1.
+/// Alpha of a level: each level is wider than the previous one by a constant factor, from the least alpha to 1.
 double alphaOf(std::size_t level, std::size_t levels) {
     return std::pow(ENVIRONMENT_LEAST_ALPHA, 1.0 - double(level) / double(levels - 1));
 }
@@ -59,24 +59,24 @@ void expectSlopes(const FilteredEnvironment& filtered, double error) {
     }
 }
 
-/// Light that rises in proportion to an axis stays so under any lobe that is round, and rises by the mean cosine of the
-/// lobe as much: the width of each level is in one number.
+/// Radiance that is linear along an axis stays linear under any rotationally symmetric lobe; its slope is scaled by the
+/// lobe's mean cosine. One number therefore measures the width of a level.
 TEST(EnvironmentLevels, flattenALinearSlopeOfLightByTheMeanCosineOfTheirLobe) {
-    EXPECT_NEAR(meanCosineOfLevel(1.0), 2.0 / 3.0, 1e-6); // all facets alike: of u from 0 to 1 the mean by weight u
+    EXPECT_NEAR(meanCosineOfLevel(1.0), 2.0 / 3.0, 1e-6); // u = 0 to 1 is uniform: its mean by weight u
     EXPECT_NEAR(meanCosineOfLevel(0.13895), 0.93080, 1e-5);
     const FilteredEnvironment filtered = filteredSlopes(512, 256);
     ASSERT_GE(filtered.levels.size(), 5u);
-    // Each level is averaged from pictures as coarse as its samples lie apart, whose texels widen the lobe: by 1.4 % of
-    // the slope at alpha 1, where they are a tenth of a radian wide, by 0.5 % and less before. That is 1.8e-3 of the
-    // light at most. A lobe without the weight of the cosine is off by 0.03 at alpha 1, one of half the alpha by 3e-3
-    // and more from alpha 0.06 on.
+    // Each level averages images as coarse as its sample spacing, whose texels widen the lobe: by 1.4 % of the slope at
+    // alpha 1, where they are a tenth of a radian wide, by 0.5 % and less before. That is at most 1.8e-3 of the light.
+    // A lobe without the cosine weight is off by 0.03 at alpha 1, a lobe of half the alpha by 3e-3 and more from alpha
+    // 0.06 on.
     expectSlopes(filtered, 2e-3);
-    // The mean over a clamped cosine, which harmonics of the first order hold.
+    // The mean cosine of a clamped cosine lobe; harmonics of the first order represent it.
     SCOPED_TRACE("irradiance");
     expectSlope(filtered.irradiance, std::numbers::pi, 2.0 / 3.0, 1e-3);
 }
 
-/// Maps of few texels are filtered to smaller pictures, by as many samples as the places of those need.
+/// Small maps are filtered to smaller levels, with as many samples as those need.
 TEST(EnvironmentLevels, ofSmallMapsFlattenASlopeAsWell) {
     const FilteredEnvironment filtered = filteredSlopes(64, 32);
     ASSERT_EQ(filtered.levels.size(), std::size_t(ENVIRONMENT_LEVELS));
@@ -89,8 +89,8 @@ double eighthHarmonic(double c) {
     return ((((6435.0 * s - 12012.0) * s + 6930.0) * s - 1260.0) * s + 35.0) / 128.0;
 }
 
-/// A round lobe keeps a share of a harmonic of light, its own mean of it: of order 8 it tells narrow lobes apart, which
-/// a slope of light does not.
+/// A rotationally symmetric lobe scales a harmonic of light by its mean of the harmonic. Order 8 distinguishes narrow
+/// lobes; a linear slope does not.
 TEST(EnvironmentLevels, keepOfTheEighthHarmonicTheMeanOfTheirLobe) {
     constexpr double kPart = 0.5;
     constexpr int kMapWidth = 1024, kMapHeight = 512;
@@ -110,7 +110,7 @@ TEST(EnvironmentLevels, keepOfTheEighthHarmonicTheMeanOfTheirLobe) {
             weights += cosine;
             sum += cosine * eighthHarmonic(cosine);
         }
-        // What is kept, by the level's own part of the harmonic: the mean of both over the sphere.
+        // The scale: projection of the level onto the harmonic over the sphere.
         const DividedOctahedron& level = filtered.levels[std::size_t(i)];
         double own = 0.0, squares = 0.0;
         for (int y = 0; y <= level.side; ++y)
@@ -121,7 +121,7 @@ TEST(EnvironmentLevels, keepOfTheEighthHarmonicTheMeanOfTheirLobe) {
                 squares += harmonic * harmonic;
             }
         shares.push_back(own / squares);
-        // An alpha of a half or 1.5 times as much keeps 0.03 more or less of the first level and 0.06 to 0.2 of others.
+        // Half or 1.5 times the alpha changes the scale by 0.03 at the first level and by 0.06 to 0.2 at others.
         EXPECT_NEAR(shares.back(), sum / weights, 0.015) << "alpha " << alpha;
     }
     EXPECT_TRUE(std::ranges::is_sorted(shares, std::greater<>()));

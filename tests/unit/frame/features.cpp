@@ -16,7 +16,7 @@ using scenes::Material;
 using scenes::MaterialModel;
 using scenes::TextureSlot;
 
-/// A scene with one lambert triangle: nothing else is needed.
+/// A scene of one lambert triangle, which needs no other feature.
 scenes::Scene plainScene() {
     scenes::Scene scene = scenes::tinyScene();
     scene.materials[0].model = MaterialModel::Lambert;
@@ -101,14 +101,14 @@ std::vector<Change> changes() {
         {Feature::SubsurfaceDiffusion, subsurface(scenes::SubsurfaceMethod::TextureSpaceDiffusion)},
     };
     for (const scenes::MaterialModelInfo& info : scenes::materialModels())
-        if (info.model != MaterialModel::Lambert) // that of the plain scene
+        if (info.model != MaterialModel::Lambert) // the plain scene's model
             changes.push_back(
                 {featureOf(info.model), material([model = info.model](Material& m) { m.model = model; })});
     for (std::size_t i = 0; i < scenes::kTextureSlotCount; ++i)
         changes.push_back({featureOf(TextureSlot(i)), [i](scenes::Scene& scene) {
                                addTexture(scene.materials[0], TextureSlot(i));
                                if (TextureSlot(i) == TextureSlot::Occlusion)
-                                   scene.environment.emplace(); // it dims that
+                                   scene.environment.emplace(); // occlusion dims it
                            }});
     return changes;
 }
@@ -153,7 +153,7 @@ TEST(Features, whatTransmitsIsDrawnWithTheTransparentSurfacesAndHasABodyOnlyByIt
 
 TEST(Features, everyFeatureOfMaterialsHasASceneWithItAndOneWithout) {
     std::set<Feature> tested{featureOf(MaterialModel::Lambert),
-                             Feature::AttenuationLights, // the lights' are packLights' business, and so are shadows
+                             Feature::AttenuationLights, // packLights() decides the features of lights and shadows
                              Feature::LightPictures,
                              Feature::OrthographicCamera,
                              Feature::Shadows,
@@ -228,15 +228,15 @@ TEST(Features, aMaterialMayMirrorExactlyWhenSomeLobeOfItMayBeSharperThanFiltered
         {true, blinn(2e4f)}, // as wide as alpha 0.01
         {false, blinn(1e4f)},
         {true, also(blinn(1e4f), textured(TextureSlot::MetallicRoughness))},
-        // What hardly bends light hardly spreads it.
+        // An index near 1 hardly widens transmitted light.
         {true, also(metal(0.5f), body(0.1f, 1.02f))},
         {false, also(metal(0.5f), body(0.1f, 1.5f))},
-        {true, also(metal(0.23f), body(0.1f, 1.5f))}, // alpha 0.053, of light that passes a sixth
-        {false, also(metal(0.5f), body(0.1f, 0.0f))}, // an index without bound
-        {true, also(metal(0.5f), body(0.0f, 1.02f))}, // sheets too
+        {true, also(metal(0.23f), body(0.1f, 1.5f))}, // alpha 0.053, a sixth of it for transmitted light
+        {false, also(metal(0.5f), body(0.1f, 0.0f))}, // an infinite index
+        {true, also(metal(0.5f), body(0.0f, 1.02f))}, // thin sheets too
         {false, also(metal(0.5f), body(0.0f, 1.5f))},
         {true, also(also(metal(0.5f), body(0.1f, 1.5f)), textured(TextureSlot::Ior))},
-        {false, [](Material& m) { m.perceptualRoughness = 0.0f; }}}; // lambert has none
+        {false, [](Material& m) { m.perceptualRoughness = 0.0f; }}}; // lambert has no lobe
     for (std::size_t i = 0; i < cases.size(); ++i) {
         scenes::Scene scene = plainScene();
         cases[i].set(scene.materials[0]);
@@ -279,7 +279,7 @@ TEST(Features, aRequestGivesItsMethodToMaterialsWithASubsurfaceAlone) {
     EXPECT_TRUE(wraps(Method::DepthMap, Method::Wrap, nothing));
     EXPECT_FALSE(wraps(Method::Wrap, Method::None, nothing));
     EXPECT_FALSE(wraps(Method::None, Method::Wrap, nothing));
-    // What changes nothing.
+    // Values without effect.
     EXPECT_FALSE(wraps(Method::Wrap, {}, [](Material& m) { m.subsurface.wrap = 0.0f; }));
     EXPECT_FALSE(wraps(Method::Wrap, {}, [](Material& m) { m.subsurface.wrapTint = glm::vec3(0.0f); }));
     EXPECT_FALSE(wraps(Method::Wrap, {}, [](Material& m) { m.model = MaterialModel::SingleColor; }));

@@ -30,7 +30,7 @@ FeatureSet featuresOf(
     return materialFeatures(scene);
 }
 
-/// The same where values of materials change over surfaces, so that pixels must hold them.
+/// Adds material values that vary over surfaces, which pixels must store.
 FeatureSet varying(FeatureSet features) {
     features.add(Feature::VaryingMaterials);
     return features;
@@ -89,7 +89,7 @@ TEST(GBufferLayout, pixelsHoldTheNumberOfTheirMaterialWhereNoneVariesAndNothingO
     EXPECT_FALSE(holdMaterialNumber(exact, neededChannels(featuresOf(MaterialModel::SingleColor), exact, false)));
     for (const Channel packed : {Channel::Albedo, Channel::Normal, Channel::Microsurface, Channel::Specular,
                                  Channel::Emission, Channel::Sheen}) {
-        // A channel of another encoding must give the picture of that encoding, with any other channels.
+        // A channel of another encoding must give that encoding's image, whatever the other channels.
         GBufferLayout mixed = exact;
         mixed.encoding[std::size_t(packed)] = Encoding::Packed;
         EXPECT_FALSE(holdMaterialNumber(mixed, neededChannels(features, mixed, false))) << int(packed);
@@ -135,7 +135,7 @@ TEST(GBufferLayout, channelsAreAllocatedExactlyWhenASurfaceNeedsThem) {
             << int(channel);
     EXPECT_EQ(channels(allFeatures()).size(), kChannelCount - 1);
 
-    FeatureSet mixed = featuresOf(Lambert); // with unlit surfaces, so that a pixel must say which it is
+    FeatureSet mixed = featuresOf(Lambert); // with unlit surfaces: a pixel must store its model
     mixed.add(featureOf(SingleColor));
     mixed.soleModel.reset();
     EXPECT_THAT(channels(mixed), ElementsAre(Channel::Albedo, Channel::Normal, Channel::Microsurface));

@@ -22,7 +22,7 @@ scenes::Light picturedLight(LightType type, const scenes::LightTexture& texture)
     return light;
 }
 
-/// Texel of a level.
+/// Reads a texel of a level.
 glm::vec3 texelOf(const std::vector<glm::vec4>& texels, std::size_t picture, std::size_t level, int x, int y) {
     const glm::vec4 record = texels[picture * LIGHT_PICTURE_HEADER_TEXELS + LIGHT_PICTURE_FIRST_LEVEL + level];
     return glm::vec3(texels[std::size_t(record.x) + std::size_t(y) * std::size_t(record.y) + std::size_t(x)]);
@@ -38,7 +38,7 @@ TEST(LightPictures, lightsOfOnePictureAndOutlineShareAnEntry) {
     for (int i = 0; i < 1000; ++i) scene.lights.push_back(picturedLight(LightType::Rectangle, one));
     scene.lights.push_back(picturedLight(LightType::Disk, one));
     scene.lights.push_back(picturedLight(LightType::Rectangle, other));
-    scene.lights.push_back(picturedLight(LightType::Sphere, other)); // which shows none
+    scene.lights.push_back(picturedLight(LightType::Sphere, other)); // spheres show no image
     const LightPictures pictures = lightPictures(scene);
     EXPECT_EQ(pictures.shown.size(), 3u);
     for (const auto& [light, picture] : {std::pair(0, -1), {1, 0}, {1000, 0}, {1001, 1}, {1002, 2}, {1003, -1}})
@@ -81,7 +81,7 @@ TEST(LightPictures, levelsBlurAsTheirGaussiansSay) {
     EXPECT_EQ(levels.back().deviation, 1.0);
     EXPECT_EQ(texelOf(texels, 0, 0, 31, 7), glm::vec3(1.0f));
     EXPECT_EQ(texelOf(texels, 0, 0, 32, 7), glm::vec3(0.0f));
-    // Far from the picture's edge a step becomes the normal distribution.
+    // Far from the image's edges, a filtered step is the cumulative normal distribution.
     for (std::size_t i = 1; i + 4 < levels.size(); ++i) {
         SCOPED_TRACE(i);
         const PictureLevel& level = levels[i];
@@ -138,7 +138,7 @@ TEST(LightPictures, whatLiesBesideTheOutlineIsNotPartOfTheLight) {
     EXPECT_EQ(texels[2 * LIGHT_PICTURE_HEADER_TEXELS].g, 0.25f);
 }
 
-/// Against sums over a fine grid.
+/// Compares with sums over a fine grid.
 TEST(LightPictures, theVariancesOfAnOutlineAreThoseOfItsPlaces) {
     const scenes::LightTexture texture = test::evenLightTexture(glm::vec3(1.0f));
     const scenes::LightCorners ell =

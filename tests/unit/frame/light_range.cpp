@@ -28,13 +28,13 @@ long double brightest(const Light& light) {
     return static_cast<long double>(std::max({light.color.r, light.color.g, light.color.b})) * light.intensity;
 }
 
-/// Whether the light is above the tolerance at r metres, by its definition.
+/// Returns whether the light exceeds the tolerance at r metres, by its definition.
 bool isAbove(const Light& light, long double r, long double tolerance) {
     const glm::vec3& abc = light.attenuation;
     return brightest(light) - tolerance * abc.x > tolerance * (abc.y * r + abc.z * r * r);
 }
 
-/// Where it falls to the tolerance, by halving an interval until long double holds no number inside.
+/// The distance at which the light falls to the tolerance, by bisection to the precision of long double.
 long double bisectedReach(const Light& light, long double tolerance) {
     if (!isAbove(light, 0.0L, tolerance)) return 0.0L;
     long double low = 1.0L;
@@ -53,7 +53,7 @@ struct Case {
     double tolerance;
 };
 
-/// Every coefficient is at times 0, at times huge or tiny; at times the light is hardly above the tolerance anywhere.
+/// Some coefficients are 0, huge or tiny; some lights barely exceed the tolerance anywhere.
 std::vector<Case> randomCases() {
     test::Random random(12);
     const auto coefficient = [&] {
@@ -69,7 +69,7 @@ std::vector<Case> randomCases() {
         if (light.attenuation.y == 0.0f && light.attenuation.z == 0.0f) continue;
         double tolerance = random.logarithmic(1e-10, 10.0);
         if (random.index(4) == 0) tolerance = random.logarithmic(1e-30, 1e10);
-        // What A leaves of the light at the light itself is above the tolerance by 1e-6 to 1 of it.
+        // At distance 0 the light, divided by A, exceeds the tolerance by 1e-6 to 1 of it.
         const double atLight = double(brightest(light)) / light.attenuation.x;
         if (random.index(4) == 0 && std::isfinite(atLight)) tolerance = atLight / (1.0 + random.logarithmic(1e-6, 1.0));
         cases.push_back({light, tolerance});
@@ -83,8 +83,8 @@ TEST(LightReach, agreesWithABisectionInExtendedPrecision) {
         const long double expected = bisectedReach(light, tolerance);
         const double reach = reachMetres(light, tolerance);
         ++(expected > 0.0L ? finite : dark);
-        // The root takes some ten roundings of 2^-53. Where the light at itself is above by only 1e-6 of the tolerance,
-        // the bisection's own 2^-64 grows by as much, to 5e-14.
+        // The root takes about ten roundings of 2^-53. Where the light at distance 0 exceeds the tolerance by only
+        // 1e-6, the bisection's 2^-64 is amplified to 5e-14.
         ASSERT_NEAR(double(reach / (expected > 0.0L ? expected : 1.0L)), expected > 0.0L ? 1.0 : 0.0, 1e-12)
             << light.intensity << " A " << light.attenuation.x << " B " << light.attenuation.y << " C "
             << light.attenuation.z << " tolerance " << tolerance;
@@ -99,12 +99,12 @@ TEST(LightReach, thereTheBrightestChannelIsTheTolerance) {
         if (reach == 0.0L) continue;
         const glm::vec3& abc = light.attenuation;
         const long double there = brightest(light) / (abc.x + abc.y * reach + abc.z * reach * reach);
-        ASSERT_NEAR(double(there / tolerance), 1.0, 1e-12); // ten roundings of 2^-53, squared by C's term
+        ASSERT_NEAR(double(there / tolerance), 1.0, 1e-12); // ten roundings of 2^-53, doubled by C's square
     }
 }
 
 TEST(LightReach, isZeroExactlyWhenTheLightIsNowhereAboveTheTolerance) {
-    const Light light = attenuated(3.0f, {6.0f, 0.25f, 0.5f}); // 1/2 at the light itself
+    const Light light = attenuated(3.0f, {6.0f, 0.25f, 0.5f}); // 1/2 at distance 0
     EXPECT_EQ(reachMetres(light, 0.5), 0.0);
     EXPECT_EQ(reachMetres(light, 0.75), 0.0);
     EXPECT_EQ(reachMetres(light, std::numeric_limits<double>::max()), 0.0);
@@ -116,7 +116,7 @@ TEST(LightReach, isZeroExactlyWhenTheLightIsNowhereAboveTheTolerance) {
 
 TEST(LightReach, isInfiniteWithoutAToleranceOrWithoutFalloff) {
     EXPECT_EQ(reachMetres(attenuated(1.0f, {1.0f, 2.0f, 3.0f}), 0.0), scenes::kInfinity);
-    for (const double tolerance : {1e-300, 0.5, 1e300}) // also where all of it is below the tolerance
+    for (const double tolerance : {1e-300, 0.5, 1e300}) // even if all of it is below the tolerance
         EXPECT_EQ(reachMetres(attenuated(1.0f, {2.0f, 0.0f, 0.0f}), tolerance), scenes::kInfinity) << tolerance;
     EXPECT_EQ(reachMetres(attenuated(1e20f, {0.0f, 0.0f, 1e-38f}), std::numeric_limits<double>::denorm_min()),
               scenes::kInfinity)

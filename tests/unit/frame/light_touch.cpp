@@ -1,5 +1,5 @@
-// The test that lists are built by (shaders/shared/culling.h), at its edges, where it must still say yes. Numbers are
-// such that fp32 holds them exactly.
+// Limit cases of the culling tests for light lists (shaders/shared/culling.h), which must still pass. fp32 represents
+// all numbers exactly.
 #include "shaders/shared/culling.h"
 
 #include <cmath>
@@ -29,7 +29,7 @@ TEST(LightTouch, aTileIsExactlyTheCentresOfItsPixelsAndAllOfThemWithSeveralSampl
 }
 
 TEST(LightTouch, aSphereThatJustMeetsAPlaneOfASlabTouchesIt) {
-    // Planes through the eye with slopes -3/4 and 3/4: a point so far aside is 4/5 of that away.
+    // Planes through the eye with slopes -3/4 and 3/4: the distance to a plane is 4/5 of the lateral offset.
     const glm::vec2 rays(-0.75f, 0.75f), eyeAtOrigin(0.0f, 1.0f), orthographic(1.0f, 0.0f);
     const auto touches = [&](float across, const glm::vec2& spread) {
         return shared::sphereTouchesSlab(across, shared::spreadAt(4.0f, spread), 1.0f,
@@ -51,7 +51,7 @@ TEST(LightTouch, aSphereThatJustMeetsADepthTouchesIt) {
     EXPECT_TRUE(touches(5.0f, 1.0f, 3.0f, 4.0f));
     EXPECT_FALSE(touches(1.875f, 1.0f, 3.0f, 4.0f));
     EXPECT_FALSE(touches(5.125f, 1.0f, 3.0f, 4.0f));
-    // At the origin of lighting space, where the margin for rounding is 0 too.
+    // At the origin of lighting space, where the rounding margin is 0 too.
     EXPECT_TRUE(touches(-1.0f, 1.0f, 0.0f, 1.0f));
     EXPECT_TRUE(touches(1.0f, 1.0f, -1.0f, 0.0f));
 }
@@ -70,7 +70,7 @@ TEST(LightTouch, theDistanceOfAPointFromABoxIsThatOfTheNearestPoint) {
 }
 
 TEST(LightTouch, aConeTouchesBoxesWithinHalfADiagonal) {
-    // Travels ahead from the origin, 45 degrees to each side.
+    // A cone from the origin along +z with a half angle of 45 degrees.
     const float root = std::sqrt(0.5f);
     const shared::CullLight light{glm::vec4(0, 0, 0, 100), glm::vec4(0, 0, 0, root), glm::vec4(0, 0, 1, root)};
     const auto touches = [&](const glm::vec3& center, float halfSide) {
@@ -129,8 +129,8 @@ TEST(LightTouch, theMarginForRoundingIsThatOfPositionsAndThatOfEvenDepthsTogethe
 }
 
 TEST(TileGrid, theFinestSlicesOfDepthAreAsDeepAsATileOfSixteenPixelsIsWide) {
-    // Of keys, 2^23 cover a factor of two in distance, or an even interval; a slice covers 2^shift. All numbers are
-    // powers of two, so the slice is exactly as deep, not only the nearest power of two.
+    // 2^23 depth keys cover a factor of two in distance, or a uniform interval; a slice covers 2^shift keys. All
+    // numbers are powers of two, so the slice depth is exact instead of the nearest power of two.
     const auto finestShift = [](float pixelMetres, bool orthographic, float originMetres, float evenMetres) {
         shared::ViewConstants view{};
         view.sizePixels = {640, 360, 0, 0};

@@ -1,5 +1,5 @@
-// The shapes of lobes under area lights, judged apart from the program that fitted them: other forms of the lobe, other
-// places to integrate at.
+// Fitted lobe shapes of area lights (linearly transformed cosines), checked independently of the fitting program: with
+// other forms of the lobe and other integration points.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,8 +14,8 @@
 namespace tessera::frame {
 namespace {
 
-/// The matrix that takes lights to a clamped cosine (shared::inverseOfShape), from numbers interpolated as by a shader:
-/// linearly between four entries. Smaller alphas and cosines count as the smallest of the table.
+/// The matrix that transforms light directions to a clamped cosine (shared::inverseOfShape), interpolated bilinearly as
+/// in shaders. Alphas and cosines are clamped to the smallest of the table.
 glm::dmat3 inverseShape(double alpha, double cosView) {
     constexpr double kLast = LOBE_SHAPES_SIDE - 1;
     alpha = std::clamp(alpha, double(LOBE_SHAPES_SMALLEST_ALPHA), 1.0);
@@ -31,13 +31,13 @@ glm::dmat3 inverseShape(double alpha, double cosView) {
     return shared::inverseOfShape(glm::vec4(numbers), float(alpha), float(cosView), float(sineView));
 }
 
-/// Of an isotropic GGX lobe and a view in the plane of x and z.
+/// An isotropic GGX lobe and a view direction in the xz plane.
 struct ShapeView {
     double alpha = 1.0, cosine = 1.0;
     glm::dvec3 viewer() const { return {std::sqrt(1.0 - cosine * cosine), 0.0, cosine}; }
 };
 
-/// By Smith's Lambda; the BRDF without Fresnel, times the cosine of the light.
+/// The BRDF without Fresnel, times the cosine of the light, by Smith's Lambda.
 double lobeOf(const ShapeView& view, const glm::dvec3& light) {
     if (light.z <= 0.0) return 0.0;
     const glm::dvec3 half = light + view.viewer();
@@ -49,7 +49,7 @@ double lobeOf(const ShapeView& view, const glm::dvec3& light) {
     return distribution / ((1.0 + lambda(light) + lambda(view.viewer())) * 4.0 * view.cosine);
 }
 
-/// Of lights that facets reflect the viewer to, drawn by their area: D n.h / (4 v.h).
+/// Density of the directions that microfacets, sampled by area, reflect the viewer to: D n.h / (4 v.h).
 double facetDensity(const ShapeView& view, const glm::dvec3& light) {
     const glm::dvec3 sum = light + view.viewer();
     const double length = glm::length(sum), up = sum.z / length;
@@ -59,12 +59,12 @@ double facetDensity(const ShapeView& view, const glm::dvec3& light) {
 }
 
 struct ShapeFigures {
-    double lobe = 0.0;     ///< what the lobe reflects of even light
-    double share = 0.0;    ///< of the shape that lies above the surface
+    double lobe = 0.0;     ///< reflectance under uniform illumination
+    double share = 0.0;    ///< fraction of the shape above the surface
     double distance = 0.0; ///< integral of |lobe - shape| above the surface, both scaled to 1
 };
 
-/// Visits the half y > 0 of a unit disc, of which each place stands for a share; denser at the rim.
+/// Visits points of the half disc y > 0 with their weights; denser at the rim.
 template <typename Visitor>
 void visitPlaces(const Visitor& visit) {
     constexpr int kRings = 96, kTurns = 64;
@@ -76,7 +76,7 @@ void visitPlaces(const Visitor& visit) {
         }
 }
 
-/// Where facets send light, and where the shape lies: each part of an integral is taken where it is smooth.
+/// Integrates over directions sampled by microfacets and by the shape, weighted by the balance heuristic.
 ShapeFigures figuresOf(const ShapeView& view, const glm::dmat3& inverse) {
     const glm::dmat3 forwards = glm::inverse(inverse);
     const double determinant = glm::determinant(inverse);
@@ -148,7 +148,7 @@ TEST(LobeShapes, areAsGoodBetweenEntriesAsAtThem) {
             };
             const double mean = 0.25 * (at(0.0, 0.0) + at(0.0, 1.0) + at(1.0, 0.0) + at(1.0, 1.0));
             const double middle = at(0.5, 0.5);
-            // Where the viewer's cosine is less than alpha, at the left end, lobes change fastest.
+            // Lobes change fastest at the left end, where the viewer's cosine is less than alpha.
             EXPECT_LT(middle, 1.05 * mean + (column < 4 ? 0.05 : 0.003)) << row << ", " << column;
             atEntries += mean;
             between += middle;
@@ -156,8 +156,8 @@ TEST(LobeShapes, areAsGoodBetweenEntriesAsAtThem) {
     EXPECT_LT(between, 1.01 * atEntries);
 }
 
-/// A small step aside in any of the four numbers comes no nearer by more than the fit's end. Of narrow lobes some
-/// numbers hardly matter, and are held by their neighbours alone (changeSmoothlyFromEntryToEntry).
+/// A small step in any of the four numbers reduces the distance by no more than the fit's tolerance. Some numbers of
+/// narrow lobes hardly matter; only their neighbours constrain them (changeSmoothlyFromEntryToEntry).
 TEST(LobeShapes, areNoFartherThanAStepAside) {
     constexpr double kStep = 0.02, kFitsEnd = 0.003;
     for (int row = 4; row < LOBE_SHAPES_SIDE; row += 9)
@@ -213,7 +213,7 @@ TEST(LobeShapes, areFiniteInvertibleAndMirroredAtThePlaneOfTheViewer) {
             const double alpha = i * i / 22500.0, cosine = j * j / 22500.0;
             const glm::dmat3 inverse = inverseShape(alpha, cosine);
             for (int k = 0; k < 3; ++k) ASSERT_TRUE(std::isfinite(glm::dot(inverse[k], inverse[k])));
-            // 2 alpha times the square of Smith's length where alpha is small.
+            // For small alpha the determinant is 2 alpha times the square of Smith's length.
             const double floored = std::max(alpha, 1e-3);
             const double width2 = floored * floored + (1.0 - floored * floored) * cosine * cosine;
             EXPECT_GT(glm::determinant(inverse), floored * width2) << alpha << ", " << cosine;
@@ -225,7 +225,7 @@ TEST(LobeShapes, areFiniteInvertibleAndMirroredAtThePlaneOfTheViewer) {
 
 TEST(LobeShapes, changeSmoothlyFromEntryToEntry) {
     const auto at = [](int row, int column) { return lobeShapes()[std::size_t(row * LOBE_SHAPES_SIDE + column)]; };
-    // Entries that were fitted to different minima of one flat valley were off by 0.45.
+    // Entries fitted to different minima of one flat valley were off by 0.45.
     const auto expectNear = [](const glm::vec4& entry, const glm::vec4& before, const glm::vec4& after) {
         for (int i = 0; i < 4; ++i) EXPECT_NEAR(entry[i], 0.5f * (before[i] + after[i]), 0.2f);
     };

@@ -22,7 +22,7 @@ const std::vector<glm::vec4>& lobeTable() {
     return table;
 }
 
-/// A place from 0 to 1 along both sides of a layer, as shaders look it up.
+/// Interpolates a layer as shaders do, at coordinates from 0 to 1.
 glm::vec4 interpolatedAt(const std::vector<glm::vec4>& table, const glm::dvec2& along, int layer) {
     const glm::dvec2 place = along * (LOBE_TABLE_SIDE - 1.0);
     const glm::ivec2 low = glm::min(glm::ivec2(place), glm::ivec2(LOBE_TABLE_SIDE - 2));
@@ -37,7 +37,7 @@ glm::vec4 lookedUp(const std::vector<glm::vec4>& table, double cosine, double al
     return interpolatedAt(table, glm::sqrt(glm::dvec2(cosine, alpha)), LOBE_LAYER_GGX);
 }
 
-/// F by Snell's law.
+/// Unpolarised Fresnel reflectance by Snell's law.
 double fresnelBySnell(double ior, double cosine) {
     const double sine = std::sqrt(1.0 - cosine * cosine) / ior;
     if (!(sine < 1.0)) return 1.0;
@@ -68,7 +68,7 @@ double dielectricLookedUp(const std::vector<glm::vec4>& table, double ior, doubl
     return std::clamp(reflected, 0.0, 1.0);
 }
 
-/// By half vectors h with the density D n.h, dl = 4 v.h dh: the mean of F G v.h / (n.v n.h).
+/// Reflectance by half vectors h of density D n.h, dl = 4 v.h dh: the mean of F G v.h / (n.v n.h).
 double reflectedByHalfVectors(double ior, double cosView, double alpha) {
     constexpr int kRings = 512, kTurns = 256;
     const double sine = std::sqrt(1.0 - cosView * cosView);
@@ -92,7 +92,7 @@ double reflectedByHalfVectors(double ior, double cosView, double alpha) {
     return sum / (double(kRings) * kTurns);
 }
 
-/// Where total reflection begins as elsewhere, and on both sides of index 1; or of every third of these indices.
+/// Indices on both sides of 1, including the onset of total reflection; a reduced sweep takes every third of them.
 void expectDielectricsLobe() {
     const std::vector<glm::vec4>& table = lobeTable();
     for (const double ior :
@@ -112,8 +112,8 @@ TEST(LobeTableSlow, aDielectricsLobeIsInterpolatedWithinTwoPercent) {
     expectDielectricsLobe();
 }
 
-/// Half-way between the table's indices from 1 to 3 and at an end of that, where a table of reflectances was off by all
-/// of them; or of every third of these. Without an absolute part where the viewer's cosine is 0.08 or more.
+/// Indices halfway between the table's from 1 to 3, where an earlier table of reflectances had a relative error of 1,
+/// and ends of that range; a reduced sweep takes every third. No absolute tolerance from a viewer's cosine of 0.08 up.
 void expectIndicesFrom1To3() {
     const std::vector<glm::vec4>& table = lobeTable();
     std::vector<double> iors{1.02, 1.1, 3.0};
@@ -144,12 +144,12 @@ TEST(LobeTable, nothingIsReflectedWhereTheIndexIsOne) {
     for (const double alpha : {0.0, 0.3, 1.0})
         for (const double cosine : {0.01, 0.5, 1.0}) {
             EXPECT_LT(dielectricLookedUp(lobeTable(), 1.0, cosine, alpha), 1e-12);
-            // From below too, but where reflection is total.
+            // Also just below 1, except where reflection is total.
             EXPECT_LT(dielectricLookedUp(lobeTable(), 0.99999, std::max(cosine, 0.5), alpha), 1e-6);
         }
 }
 
-/// Blinn's highlight (n.h)^p over all lights dl = 4 v.h dh, by circles of half vectors.
+/// Blinn's highlight (n.h)^p integrated over all lights, dl = 4 v.h dh, by rings of half vectors.
 double reflectedByBlinn(double exponent, double cosView) {
     constexpr int kRings = 1000, kTurns = 256;
     const double sine = std::sqrt(1.0 - cosView * cosView), widest = std::min(0.5 * pi, 20.0 / std::sqrt(exponent));
@@ -165,7 +165,7 @@ double reflectedByBlinn(double exponent, double cosView) {
     return sum * (widest / kRings) * (2.0 * pi / kTurns);
 }
 
-/// Also of lobes that are narrower than any of the table.
+/// Includes lobes narrower than any of the table.
 TEST(LobeTable, blinnsHighlightIsInterpolatedWithinHalfAPercentAtAnyExponent) {
     const std::vector<glm::vec4>& table = lobeTable();
     for (const double exponent : {1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6, 1e9})
@@ -192,8 +192,8 @@ TEST(LobeTable, holdsThePublishedSplitSum) {
         }
 }
 
-/// Under even light a sheen reflects its directional albedo E, and what lies below loses the larger of E at the light
-/// and E at the viewer (KHR_materials_sheen, "Albedo-scaling technique"): on the mean over the light 2 max(E, E') c dc.
+/// Under uniform illumination a sheen reflects its directional albedo E. Layers below lose the larger of E at the light
+/// and at the viewer (KHR_materials_sheen, "Albedo-scaling technique"): on average over the light, 2 max(E, E') c dc.
 TEST(LobeTable, holdsWhatASheenReflectsAndOnTheMeanTakesFromBelow) {
     constexpr int kSteps = 2000;
     const std::vector<glm::vec4>& table = lobeTable();
@@ -212,9 +212,9 @@ TEST(LobeTable, holdsWhatASheenReflectsAndOnTheMeanTakesFromBelow) {
         }
 }
 
-/// (1 - v.h)^5 on the mean over lights by their cosine: straight from above v.h is the cosine of half the light's angle
-/// x, and the mean of sin 2x (1 - cos x/2)^5 from 0 to pi/2 is 2 (1 - u)^5 (2 u^2 - 1) 4 u du from sqrt(1/2) to 1 of
-/// u = cos x/2. Elsewhere by polar angles.
+/// The cosine-weighted mean of (1 - v.h)^5 over lights. For a viewer along the normal, v.h is the cosine of half the
+/// light's angle x: the mean of sin 2x (1 - cos x/2)^5 from 0 to pi/2 is the integral of 2 (1 - u)^5 (2 u^2 - 1) 4 u du
+/// over u = cos x/2 from sqrt(1/2) to 1. Other viewers take polar angles.
 TEST(LobeTable, holdsTheMeanOfSchlicksFactorOverLightFromEverywhere) {
     constexpr int kSteps = 400;
     double straight = 0.0;
@@ -222,7 +222,7 @@ TEST(LobeTable, holdsTheMeanOfSchlicksFactorOverLightFromEverywhere) {
         const double u = std::lerp(std::sqrt(0.5), 1.0, (i + 0.5) / kSteps);
         straight += 8.0 * std::pow(1.0 - u, 5.0) * (2.0 * u * u - 1.0) * u * (1.0 - std::sqrt(0.5)) / kSteps;
     }
-    EXPECT_NEAR(lookedUp(lobeTable(), 1.0, 0.5).w, straight, 2e-6); // of 8e-5
+    EXPECT_NEAR(lookedUp(lobeTable(), 1.0, 0.5).w, straight, 2e-6); // the value is 8e-5
     for (const double cosine : {0.04, 0.3, 0.7}) {
         const double sine = std::sqrt(1.0 - cosine * cosine);
         double mean = 0.0;

@@ -23,7 +23,7 @@ Light light(LightType type, const glm::dvec3& positionWS = {0, 0, -5}) {
     result.positionWS = positionWS;
     return result;
 }
-/// A point light that falls off by A, B and C.
+/// A light with attenuation coefficients A, B and C.
 Light attenuated(const glm::vec3& abc, LightType type = LightType::Point, const glm::dvec3& positionWS = {0, 0, -5}) {
     Light result = light(type, positionWS);
     result.falloff = Falloff::Attenuation;
@@ -69,7 +69,7 @@ TEST(PackedLights, theConeIsScaledFromOneInsideToZeroOutside) {
     EXPECT_NEAR(cone(int(LightType::Spot), packed, 0.9), 0.0, 1e-6);
     spot.innerConeRadians = spot.outerConeRadians; // a hard edge is held at KHR_lights_punctual's least width
     EXPECT_EQ(pack({spot}).shapes.at(0).axis.w, 500.0f);
-    // From a laser's to all but a ray, each to the digits of its difference, not of cosines near one.
+    // From a laser's cone to nearly a full sphere, each precise relative to its cosine difference.
     for (const double outer : {1e-4, 1e-2, 1.0, 1.1, 1.5, 1.6, 2.0, 2.2, 3.0, 3.14159}) {
         SCOPED_TRACE(outer);
         spot.outerConeRadians = float(outer);
@@ -155,7 +155,7 @@ TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
             const double depth = random.between(0.5, 40.0);
             const double halfHeight =
                 projection == scenes::Projection::Perspective ? slope * depth : camera.halfHeightMetres;
-            // Half of the points on the frustum's surface, where a wrong plane would show first.
+            // Half of the points lie on the frustum's surface, where a wrong plane fails first.
             const auto place = [&] { return i % 2 == 0 ? random.between(-1.0, 1.0) : double(random.index(2) * 2 - 1); };
             const glm::dvec3 point(place() * halfHeight * aspect, place() * halfHeight, -depth);
             for (std::size_t j = 0; j < lights.size(); ++j)
@@ -168,7 +168,7 @@ TEST(PackedLights, aLightThatIsLeftOutNeverReachesAPointInTheFrustum) {
 
 TEST(PackedLights, lightsWithoutEndAreNotLeftOut) {
     Light far = attenuated({1, 0, 0}, LightType::Point, {0, 0, 1000});
-    far.rangeMetres = 1.0f; // of the other falloff
+    far.rangeMetres = 1.0f; // a range applies to the other falloff only
     EXPECT_EQ(
         pack({far, light(LightType::Point, {0, 0, 1e6}), light(LightType::Directional, {0, 0, 1e6})}).texels.size(),
         3u);
@@ -178,10 +178,10 @@ TEST(PackedLights, aToleranceEndsFalloffByABCAndNothingElse) {
     Light ended = attenuated({0, 0, 1});
     ended.intensity = 8.0f; // 8 / r^2 = 1/2 at 4 m
     Light below = ended, level = ended, behind = ended, off = ended, black = ended;
-    below.attenuation = {16.0f, 0.0f, 1.0f}; // 1/2 at the light itself
+    below.attenuation = {16.0f, 0.0f, 1.0f}; // 1/2 at distance 0
     level.attenuation = {1.0f, 0.0f, 0.0f};
     behind.positionWS = {0, 0, 10};
-    behind.attenuation = {0.0f, 0.0f, 4.0f}; // 2 m
+    behind.attenuation = {0.0f, 0.0f, 4.0f}; // range 2 m
     off.enabled = false;
     black.color = glm::vec3(0.0f);
     const std::vector<Light> lights{ended, below, level, behind, off, black, light(LightType::Point)};
@@ -280,7 +280,7 @@ TEST(PackedLights, positionsKeepTheirDigitsFarFromTheOrigin) {
 
 TEST(PackedLights, keyframesArePackedAsALightThatStandsStillAsTheySay) {
     Light keyed = light(LightType::Spot);
-    keyed.intensity = 0.0f; // they light it
+    keyed.intensity = 0.0f; // the keyframes light it
     for (const auto& [of, first, last] :
          {std::tuple(scenes::LightKeyed::Direction, glm::dvec3(0, 0, -1), glm::dvec3(0, -1, 0)),
           std::tuple(scenes::LightKeyed::Color, glm::dvec3(1), glm::dvec3(1, 0, 0)),
@@ -301,7 +301,7 @@ TEST(PackedLights, keyframesArePackedAsALightThatStandsStillAsTheySay) {
     const PackedLights moving = pack({keyed}, settings), standing = pack({still}, settings);
     ASSERT_EQ(moving.texels.size(), 1u);
     EXPECT_EQ(moving.texels[0].color, standing.texels[0].color);
-    EXPECT_LT(glm::distance(moving.shapes.at(0).axis, standing.shapes.at(0).axis), 1e-6f); // a rounding to single
+    EXPECT_LT(glm::distance(moving.shapes.at(0).axis, standing.shapes.at(0).axis), 1e-6f); // rounding to fp32
 }
 
 TEST(PackedLights, anAnimatedLightIsPackedWhereItIsAtThatTime) {

@@ -46,7 +46,7 @@ TEST(PackedMaterial, whatABodyAbsorbsFollowsBeersLaw) {
     expectTimes(2.0);
     material.attenuationDistanceMetres = 0.03125f;
     expectTimes(96.0);
-    material.thicknessMetres = 0x1p-30f; // absorbs less than a rounding of the light
+    material.thicknessMetres = 0x1p-30f; // absorbs less than the light's rounding
     expectTimes(0x1p-25);
     material.thicknessMetres = 3.0f;
     material.attenuationDistanceMetres = 1e-38f;

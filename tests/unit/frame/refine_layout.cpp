@@ -14,7 +14,7 @@ using scenes::Material;
 using scenes::MaterialModel;
 using scenes::Scene;
 
-/// A quad of a material of this model, without colours of its vertices.
+/// A quad with a material of this model and without vertex colours.
 Scene quadOf(MaterialModel model) {
     Material material;
     material.model = model;
@@ -34,13 +34,13 @@ TEST(RefineLayout, aChannelIsExactOnlyWhereAColourMayExceedItsField) {
     EXPECT_EQ(packed(scene), std::pair(true, true));
     scene.materials[0].baseColor.b = 1.01f;
     EXPECT_EQ(packed(scene), std::pair(false, true));
-    scene.materials[0].model = MaterialModel::SingleColor; // radiance
+    scene.materials[0].model = MaterialModel::SingleColor; // its colour is radiance
     EXPECT_EQ(packed(scene), std::pair(true, true));
     scene.materials[0].model = MaterialModel::BlinnPhong;
     scene.materials[0].baseColor.b = 1.0f;
     scene.materials[0].specularColor.g = 1.5f;
     EXPECT_EQ(packed(scene), std::pair(true, false));
-    scene.materials[0].model = MaterialModel::MetallicRoughness; // its F0 is held to 1
+    scene.materials[0].model = MaterialModel::MetallicRoughness; // its F0 is clamped to 1
     EXPECT_EQ(packed(scene), std::pair(true, true));
     scene.meshes[0].colors.assign(4, glm::vec4(1.0f, 2.0f, 1.0f, 1.0f));
     EXPECT_EQ(packed(scene), std::pair(false, true));
@@ -98,10 +98,10 @@ TEST(RefineLayout, theAlphasOfSlimAreThoseOfPackedWhereAHighlightIsAStreakAndSoI
     EXPECT_EQ(refined(slim, scene), slim);
 }
 
-/// Of each built-in scene, or of every other one, whose families are all.
+/// Checks each built-in scene; a reduced sweep takes every other one, which covers all families.
 void expectRefinementsOfBuiltinScenes() {
     scenes::LoadOptions options;
-    options.useAssets = false; // never a scan that this machine may have
+    options.useAssets = false; // ignores scans that may be installed
     std::size_t turn = 0;
     for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
         if (!test::isWholeSweep() && turn++ % 2 != 0) continue;
@@ -111,10 +111,10 @@ void expectRefinementsOfBuiltinScenes() {
         for (const Refinement& refinement : refinements(layoutTable()[1].layout, scene))
             EXPECT_EQ(refinement.channel, Channel::Emission);
         EXPECT_EQ(refinements(layoutTable()[1].layout, scene).size(), ofSpreadLight);
-        // Streaks: both channels of alphas; of models the normal too.
+        // Anisotropic highlights: both channels of alphas; in "models" also the normal.
         const std::size_t ofHighlights = builtin.name == "models" ? 3 : builtin.name == "studio" ? 2 : 0;
         EXPECT_EQ(refinements(layoutTable()[2].layout, scene).size(), ofSpreadLight + ofHighlights);
-        // Nothing spreads where another method is asked for.
+        // Nothing is diffused if another method is requested.
         EXPECT_TRUE(refinements(layoutTable()[1].layout, scene, scenes::SubsurfaceMethod::Wrap).empty());
     }
 }

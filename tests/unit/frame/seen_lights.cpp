@@ -1,4 +1,4 @@
-// Which area lights a picture may show, where in it, and at which depths.
+// Area lights visible in an image: their pixel bounds and depths.
 #include "renderer/frame/SeenLights.h"
 
 #include <functional>
@@ -18,7 +18,7 @@ using scenes::LightType;
 using test::giveSizes;
 using test::kAreaTypes;
 
-/// 5 m before the default camera, which looks along -z, and turned to it.
+/// An area light 5 m before the default camera, which looks along -z, and facing it.
 scenes::Light lamp(LightType type) {
     scenes::Light light;
     light.type = type;
@@ -35,7 +35,7 @@ std::vector<SeenLight> seenOf(const scenes::Light& light, const scenes::Camera& 
     return seenLights(scene, camera, settings);
 }
 
-/// A random place of the surface, the ends of a tube included.
+/// A random point on the surface, including the ends of a tube.
 glm::dvec3 placeOn(const scenes::Light& light, test::Random& random) {
     const glm::dvec3& front = light.directionWS;
     const glm::dvec3 outwards = random.around(front, 0.0, 0.0);
@@ -86,7 +86,7 @@ TEST(SeenLights, aPlaceInThePictureAlwaysLiesInItsLightsWindow) {
         for (glm::vec2& corner : light.corners.metres) corner *= glm::vec2(light.widthMetres, light.heightMetres);
         const std::vector<SeenLight> seen = seenOf(light, camera, settings);
         const CameraView view = makeCameraView(camera, sizePixels, LightingSpace::World, glm::vec3(0.0f));
-        // A solid that the eye is in is not seen.
+        // A solid light around the eye is not visible.
         const bool isInside = camera.projection == scenes::Projection::Perspective && seen.empty() &&
                               glm::distance(eyeWS, light.positionWS) < 5.0 && !scenes::infoOf(light.type).isFlat;
         for (int place = 0; place < 50 && !isInside; ++place) {
@@ -161,7 +161,7 @@ TEST(SeenLights, areThoseThatShineAndAreInViewAndToBeSeen) {
         EXPECT_TRUE(seenOf(lamp(type), camera, settings).empty());
         settings.soloLight = 0;
         EXPECT_EQ(seenOf(lamp(type), camera, settings).size(), 1u);
-        // A range ends the light, not what shines.
+        // A range limits the illumination, not the visibility of the surface.
         scenes::Light ranged = lamp(type);
         ranged.rangeMetres = 0.1f;
         EXPECT_EQ(seenOf(ranged).size(), 1u);

@@ -20,7 +20,7 @@ scenes::Scene latticeOf(int lights) {
     return scenes::loadScene("lattice", options);
 }
 
-/// The lattice under a sun alone.
+/// The lattice with a sun as its only light.
 scenes::Scene latticeUnderSun() {
     scenes::Scene scene = latticeOf(1);
     scene.lights[0].type = scenes::LightType::Directional;
@@ -38,7 +38,7 @@ struct MapsTest : testing::Test {
         lights = packLights(scene, view, settings);
         return makeShadowMaps(scene, lights, view, settings, bounds);
     }
-    /// The same within so many MiB.
+    /// Same, with a budget in MiB.
     ShadowMaps mapsWithin(double mebibytes, const scenes::Scene& scene) {
         settings.shadowMaps.budgetMiB = mebibytes;
         return mapsOf(scene);
@@ -95,7 +95,7 @@ TEST_F(MapsTest, aSmallerBudgetLeavesNearerLightsMoreTexelsAndDropsNone) {
         EXPECT_EQ(maps.unmapped(), 0u) << mebibytes;
         for (std::size_t i = 0; i < maps.lights.size(); ++i) {
             EXPECT_EQ(maps.lights[i].wantedTexels, all.lights[i].wantedTexels);
-            // All reach as far. Those of one rank may differ by a halving.
+            // All lights have the same range. Equally important lights may differ by one halving.
             for (std::size_t k = 0; k < maps.lights.size(); ++k)
                 if (distanceOf(maps.lights[i]) < distanceOf(maps.lights[k])) {
                     EXPECT_GE(2 * maps.lights[i].sideTexels, maps.lights[k].sideTexels) << mebibytes;
@@ -155,7 +155,7 @@ TEST_F(MapsTest, aLightWithoutRoomHasNoFaceAndIsCounted) {
     packFaces(maps, view, firstTexel, surfaceBounds(scene), lights);
     for (const ShadowedLight& light : maps.lights) {
         EXPECT_EQ(lights.shadows[light.light].shadow.z == 0.0f, light.sideTexels == 0);
-        // Shaders do not ask for shadows of a light that has none.
+        // Shaders skip the shadow lookup of lights without a map.
         EXPECT_EQ((int(lights.texels[light.light].color.w) & LIGHT_SHADOWED) == 0, light.sideTexels == 0);
     }
 }
@@ -257,7 +257,7 @@ TEST_F(MapsTest, everyCascadeHoldsTheDepthsOfAllCasters) {
         for (const SurfaceBounds& bounds : surfaceBounds(scene))
             for (const glm::dvec3& cornerWS : {bounds.boxWS.min, bounds.boxWS.max}) {
                 const double depth = (camera.clipFromLS * glm::dvec4(camera.positionLS(cornerWS), 1.0)).z;
-                EXPECT_GT(depth, 0.0); // which stands for no caster
+                EXPECT_GT(depth, 0.0); // 0 stands for no caster
                 EXPECT_LT(depth, 1.0);
             }
     }
@@ -279,8 +279,8 @@ TEST_F(MapsTest, cascadesHoldAllThatIsSeen) {
     }
 }
 
-// A cascade's middle lies on a grid of whole texels, up to one beside the ball's. Taps at any point of the ball still
-// find their texels inside. A radius of 1 m is one of the steps of cascades, so that nothing else leaves room.
+// A cascade's centre snaps to whole texels, up to a texel beside the ball's centre. Filter taps at any point of the
+// ball must still lie inside. A radius of 1 m is one of the quantised cascade sizes, which adds no other margin.
 TEST_F(MapsTest, aCascadeHoldsItsBallAndTheTapsAroundItWhereverTheBallLies) {
     const scenes::Scene scene = latticeOf(1);
     const CameraView far =

@@ -14,7 +14,7 @@ namespace {
 using scenes::TangentMethod;
 using test::quad;
 
-/// One for each of the mesh's indices.
+/// Tangents of all corners, one per index.
 std::vector<glm::vec4> cornerTangents(const scenes::Mesh& mesh, const TangentBasis& basis) {
     const TangentMesh split = meshWithTangents(mesh, basis);
     std::vector<glm::vec4> corners;
@@ -32,7 +32,7 @@ INSTANTIATE_TEST_SUITE_P(Tangents, TangentMethods, testing::Values(TangentMethod
 
 TEST_P(TangentMethods, aQuadHasTheTangentThatIsFoundByHand) {
     for (const glm::vec4& tangent : tangents(quad())) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
-    scenes::Mesh turned = quad(); // the picture turned by a quarter: u grows along y, v (down) along x
+    scenes::Mesh turned = quad(); // the image turned by a quarter: u grows along y, v (down) along x
     turned.texCoords[0] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
     for (const glm::vec4& tangent : tangents(turned)) EXPECT_EQ(tangent, glm::vec4(0, 1, 0, 1));
 }
@@ -64,7 +64,7 @@ TEST_P(TangentMethods, framesAreAlwaysOfUnitLengthAndPerpendicularToTheNormal) {
     const std::vector<glm::vec4> all = tangents(mesh);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const glm::vec3 t(all[i]);
-        // Rounding of a unit vector to fp32: half an ulp a component.
+        // Rounding of a unit vector to fp32: half an ulp per component.
         ASSERT_NEAR(glm::length(t), 1.0f, 3e-7f) << i;
         ASSERT_NEAR(glm::dot(t, mesh.normalsOS[i]), 0.0f, 3e-7f) << i;
         ASSERT_TRUE(all[i].w == 1.0f || all[i].w == -1.0f) << i;
@@ -88,7 +88,7 @@ TEST_P(TangentMethods, coordinatesWithoutAreaAlwaysGiveAStableFrame) {
         ASSERT_NEAR(glm::length(glm::vec3(points[0])), 1.0f, 3e-7f);
         ASSERT_NEAR(glm::dot(glm::vec3(points[0]), mesh.normalsOS[0]), 0.0f, 3e-7f);
         ASSERT_EQ(points[0].w, GetParam() == TangentMethod::MikkTSpace ? -1.0f : 1.0f);
-        // Stable: a normal a little aside has a frame a little aside, except at the seam near n = -z (n.z < 0 and
+        // Stable: a small change of the normal changes the frame little, except at the seam near n = -z (n.z < 0 and
         // back).
         const glm::dvec3 aside = glm::normalize(n + 1e-4 * random.direction());
         if ((aside.z < 0.0) != (n.z < 0.0) || n.z < -0.999) continue;
@@ -106,7 +106,7 @@ TEST_P(TangentMethods, aTangentAlongTheNormalNeverGivesNaN) {
     }
 }
 
-/// The figures have seven decimals; single precision in that program is off by 2e-6 from the formulas.
+/// The reference values have seven decimals; single precision in that program is off by 2e-6 from the formulas.
 TEST(Tangents, theyAreThoseOfAnOutsideProgramWithMikkTSpace) {
     for (const bool isIndexed : {true, false}) {
         std::size_t compared = 0;
@@ -146,7 +146,7 @@ TEST(Tangents, trianglesWithoutAreaInSpaceTakeTheTangentOfTheFirstOtherAtTheirVe
     for (const glm::vec4& tangent : cornerTangents(mesh, {})) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
 }
 
-/// Transforms of the coordinates, KHR_texture_transform's, with the expected tangents of a quad.
+/// Transforms of texture coordinates (KHR_texture_transform) and the expected tangents of a quad.
 TEST(Tangents, theTexturesTransformIsAppliedFirst) {
     const auto material = [](glm::vec2 scale, float rotationRadians) {
         scenes::Material result;
@@ -170,7 +170,7 @@ TEST(Tangents, theTexturesTransformIsAppliedFirst) {
     expectTangent({1, -1}, 0, {1, 0, 0, -1});
     expectTangent({-1, 1}, 0, {-1, 0, 0, -1});
     expectTangent({-1, -1}, 0, {-1, 0, 0, 1});
-    // Coordinates that turn counter-clockwise turn the picture clockwise: its right is the quad's bottom.
+    // Coordinates that turn counter-clockwise turn the image clockwise: its right is the quad's bottom.
     expectTangent({1, 1}, quarter, {0, -1, 0, 1});
     expectTangent({1, 1}, quarter / 2, {root, -root, 0, 1});
     expectTangent({1, -1}, quarter, {0, 1, 0, -1});
@@ -184,10 +184,10 @@ TEST(Tangents, aTextureThatIsScaledToNothingLeavesAMeshesOwnAndGivesOthersAnyFra
     EXPECT_EQ(cornerTangents(own, nothing)[0], glm::vec4(0, 1, 0, 1));
 }
 
-/// The same by transforming the coordinates themselves, on a mesh whose texture is stretched and sheared.
+/// Reference: the coordinates transformed themselves, on meshes with stretched and sheared textures.
 TEST(Tangents, aTransformEqualsTransformedCoordinates) {
     for (const test::MikkTSpaceTruth& truth : test::mikkTSpaceTruth(true)) {
-        if (truth.name == "degenerate_uv") continue; // rounding gives its points an area
+        if (truth.name == "degenerate_uv") continue; // rounding gives its triangles an area
         scenes::Material material;
         scenes::TextureUse& use = material.texture(scenes::TextureSlot::Normal);
         use.image = 0;
@@ -224,7 +224,7 @@ TEST(Tangents, texturesAreTurnedByTheirTransformsAgainstTheOneThatTangentsFollow
     scenes::TextureUse& coat = material.texture(TextureSlot::ClearcoatNormal);
     coat.image = 0;
     coat.transform.rotationRadians = glm::radians(90.0f);
-    expectTurn(TextureSlot::ClearcoatNormal, quarterRight); // against the direction of anisotropy, which no map has
+    expectTurn(TextureSlot::ClearcoatNormal, quarterRight); // relative to the anisotropy direction without a texture
     scenes::TextureUse& normal = material.texture(TextureSlot::Normal);
     normal.image = 0;
     normal.transform = coat.transform;
@@ -236,7 +236,7 @@ TEST(Tangents, texturesAreTurnedByTheirTransformsAgainstTheOneThatTangentsFollow
     expectTurn(TextureSlot::Anisotropy, mirrored);
     material.texture(TextureSlot::Anisotropy) = normal;
     expectTurn(TextureSlot::Anisotropy, none);
-    material.model = scenes::MaterialModel::MicrofacetAnisotropic; // whose texture there holds a number
+    material.model = scenes::MaterialModel::MicrofacetAnisotropic; // its texture stores a scalar
     expectTurn(TextureSlot::Anisotropy, mirrored);
 }
 

@@ -41,7 +41,7 @@ TEST(TextureLevels, aTexelIsTheMeanOfTheAreaThatItCovers) {
     EXPECT_FLOAT_EQ(redAt(levels[0], 0), (1 + 2 + 0.5f * 4) / 2.5f);
     EXPECT_FLOAT_EQ(redAt(levels[0], 1), (0.5f * 4 + 8 + 16) / 2.5f);
     EXPECT_FLOAT_EQ(redAt(levels[1], 0), 6.2f);
-    // Rows as columns.
+    // Rows are averaged like columns.
     Image turned = columnsOf({1, 2, 6}, 1);
     std::swap(turned.width, turned.height);
     EXPECT_FLOAT_EQ(redAt(smallerLevels(turned, false).at(0), 0), 3.0f);
@@ -65,7 +65,7 @@ TEST(TextureLevels, coloursAreAveragedInLinearLightAndAlphaAsItIs) {
     for (int i = 0; i < 2; ++i)
         for (const int value : {255, 255, 0, 0}) image.texels.push_back(std::byte(value));
     const std::vector<std::byte> texel = smallerLevels(image, true).at(0);
-    // 2/3 and 1/3 of full light are the codes 213.2 and 156.2 (IEC 61966-2-1).
+    // Linear 2/3 and 1/3 are the sRGB codes 213.2 and 156.2 (IEC 61966-2-1).
     EXPECT_EQ(texel, (std::vector{std::byte(213), std::byte(255), std::byte(156), std::byte(85)}));
     EXPECT_EQ(smallerLevels(image, false).at(0),
               (std::vector{std::byte(170), std::byte(255), std::byte(85), std::byte(85)}));

@@ -7,7 +7,7 @@ namespace {
 
 using scenes::TextureSlot;
 
-/// A frame of everything there is, where a stage samples so many textures.
+/// A frame with all features, and this number of textures per shader stage.
 FrameSpec specOn(int texturesAStage) {
     FrameSpec spec;
     spec.features = allFeatures();

@@ -14,7 +14,7 @@ namespace {
 
 using scenes::Mesh;
 
-/// A quadrangle a b c d with texture coordinates of its corners.
+/// Adds a quadrilateral with texture coordinates at its corners.
 void addQuad(Mesh& mesh, const std::array<glm::vec3, 4>& corners, const std::array<glm::vec2, 4>& texCoords) {
     const auto first = std::uint32_t(mesh.positionsOS.size());
     for (std::size_t i = 0; i < 4; ++i) {
@@ -71,7 +71,7 @@ TEST(UvAtlas, pastAnEdgeThatNothingSharesThePlaceIsMirrored) {
     EXPECT_EQ(atlas.at(11, 30).chart, 0) << "out of reach";
 }
 
-/// A tube whose only seam runs along it, where u goes from 0 to 1.
+/// A tube whose only seam runs lengthwise, between u = 1 and u = 0.
 Mesh tube(int sides) {
     Mesh mesh;
     for (int i = 0; i < sides; ++i) {
@@ -99,7 +99,7 @@ TEST(UvAtlas, acrossASeamTheSurfaceGoesOnAtItsOtherSide) {
     }
 }
 
-// Two squares that meet in an edge, folded, the second one's texture turned, mirrored and of half the density.
+// Two squares folded at a common edge; the second one's texture is rotated, mirrored and of half the density.
 TEST(UvAtlas, theOtherSideOfASeamMayBeTurnedMirroredAndOfAnotherDensity) {
     Mesh mesh;
     addQuad(mesh, {glm::vec3(0, 0, 0), {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
@@ -129,7 +129,7 @@ TEST(UvAtlas, stepsOfASkewedTextureAreAtRightAnglesOnTheSurface) {
     for (const UvStep& step : atlas.steps) {
         EXPECT_NEAR(step.uMetres, 0.3, 1e-7);
         EXPECT_NEAR(step.vMetres, 0.2, 1e-7);
-        EXPECT_NEAR(step.shear, -1.0 / 3.0, 1e-6); // a row goes 0.1 m along u
+        EXPECT_NEAR(step.shear, -1.0 / 3.0, 1e-6); // a row shifts by 0.1 m along u
     }
 }
 
@@ -153,7 +153,7 @@ TEST(UvAtlas, aMeshThatLightCannotSpreadOverIsRefusedWithAReason) {
               "several of its triangles lie in 100 % of its texture; unwrap it so that none overlap");
 }
 
-/// Charts that two hundredths of the texels share are refused, those that share half a hundredth are not.
+/// Charts that overlap in two hundredths of the texels are refused, those that overlap in half a hundredth are not.
 TEST(UvAtlas, aHundredthOfItsTexelsMayOverlap) {
     const auto halves = [](float overlap) {
         Mesh mesh = square();
@@ -167,8 +167,8 @@ TEST(UvAtlas, aHundredthOfItsTexelsMayOverlap) {
               "several of its triangles lie in 2 % of its texture; unwrap it so that none overlap");
 }
 
-/// Exporters round the coordinates of both sides of an edge on their own: strips that reach into each other by their
-/// last digit alone, along the middles of a quarter of all texels, do not overlap. By a texel they do.
+/// Exporters round the coordinates on both sides of an edge independently. Strips that overlap by their last digit
+/// alone, at the centres of a quarter of all texels, are accepted; an overlap of a texel is refused.
 TEST(UvAtlas, stripsThatMeetToTheLastDigitDoNotOverlap) {
     const auto strips = [](float further) {
         Mesh mesh;

@@ -173,7 +173,7 @@ TEST(VertexStreams, materialsThatWantDifferentTangentsGetAMeshOfTheirOwnAndOther
 TEST(VertexStreams, splitVerticesKeepAllTheirOtherAttributes) {
     scenes::Scene scene = scenes::tinyScene();
     scenes::Mesh& mesh = scene.meshes[0];
-    // A second triangle below the first, whose texture is mirrored.
+    // A second triangle below the first, with a mirrored texture.
     mesh.positionsOS.emplace_back(0.0f, -4.0f, 0.0f);
     mesh.normalsOS.emplace_back(0, 0, 1);
     mesh.indices.insert(mesh.indices.end(), {1, 0, 3});
@@ -196,7 +196,7 @@ TEST(VertexStreams, splitVerticesKeepAllTheirOtherAttributes) {
     EXPECT_EQ(streams.tangentsOS[streams.indices[0]].w, -streams.tangentsOS[streams.indices[3]].w);
 }
 
-/// A triangle drawn with 40 materials that turn its tangents each in its own way, among many vertices.
+/// A triangle in a mesh of many vertices, drawn with 40 materials that rotate its tangents differently.
 scenes::Scene sceneOfManyTransforms(std::size_t vertices) {
     scenes::Scene scene = scenes::tinyScene();
     scenes::Mesh& mesh = scene.meshes[0];
@@ -223,26 +223,26 @@ TEST(VertexStreams, copiesForManyTransformsOfOneLargeMeshAreRefusedBeforeTheyAre
 TEST(VertexStreams, aMeshThatBringsTangentsIsNotTakenToBeSplit) {
     scenes::Scene scene = sceneOfManyTransforms(1000);
     scenes::Mesh& mesh = scene.meshes[0];
-    mesh.indices.resize(3 << 20); // 39 times as many corners are too many, vertices not
+    mesh.indices.resize(3 << 20); // 13 copies of the corners are too many, of the vertices not
     for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner) mesh.indices[corner] = corner % 3;
     mesh.tangentsOS.resize(mesh.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
     scene.nodes.resize(14);
     scene.materials.resize(14);
-    // Copies for shadows count, as the next test has it.
+    // Copies for shadows would count, see the next test.
     EXPECT_EQ(makeVertexStreams(scene, allButShadows()).positionsOS.size(), 14000u);
 }
 
 TEST(VertexStreams, copiesOfLastVerticesCountWithThoseForManyTransforms) {
     scenes::Scene scene = sceneOfManyTransforms(1000);
     scenes::Mesh& mesh = scene.meshes[0];
-    mesh.indices.assign(3 << 20, 0); // 39 times a third as many are too many
+    mesh.indices.assign(3 << 20, 0); // a copied vertex per triangle, 39 times, is too many
     mesh.tangentsOS.resize(mesh.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f));
     EXPECT_THROW(makeVertexStreams(scene, allFeatures()), InputError);
 }
 
 TEST(VertexStreams, aVertexOfManyTrianglesWithTangentsOfTheirOwnIsSplitInLittleTime) {
-    // A fan of a hundred thousand triangles that share a vertex and no edge, each turned otherwise: 5e9 steps where
-    // every copy is compared with all others.
+    // A fan of 100,000 triangles that share a vertex and no edge, each rotated differently: comparing each copy with
+    // all others would take 5e9 steps.
     constexpr int kTriangles = 100000;
     scenes::Scene scene = scenes::tinyScene();
     scenes::Mesh& mesh = scene.meshes[0];
@@ -266,7 +266,7 @@ TEST(VertexStreams, aVertexOfManyTrianglesWithTangentsOfTheirOwnIsSplitInLittleT
     EXPECT_GT(streams.positionsOS.size(), mesh.positionsOS.size() + kTriangles / 2);
 }
 
-/// The facet normals of the triangles, in their order.
+/// The triangle normals, in the order of the triangles.
 std::vector<glm::vec3> facetNormals(const VertexStreams& streams, const VertexStreams::Range& range) {
     std::vector<glm::vec3> normals;
     for (std::uint32_t i = range.firstIndex + 2; i < range.firstIndex + range.indexCount; i += 3)
@@ -276,8 +276,8 @@ std::vector<glm::vec3> facetNormals(const VertexStreams& streams, const VertexSt
 
 TEST(VertexStreams, theLastVertexOfEachTriangleHasTheNormalOfItsFront) {
     scenes::Scene scene = twoMeshes();
-    // The first has no area, and shows none. The fourth ends as the first and shares its vertex, the fifth ends as the
-    // second and is turned round: it gets a copy.
+    // The first triangle has no area and no normal of its own. The fourth ends at the same vertex as the first and
+    // shares it. The fifth ends like the second but faces the other way, so its vertex is copied.
     scene.meshes[0].indices = {0, 1, 1, 0, 1, 2, 2, 1, 0, 2, 0, 1, 1, 0, 2};
     const VertexStreams streams = makeVertexStreams(scene, allFeatures());
     const VertexStreams::Range& range = streams.ranges.begin()->second;
@@ -287,8 +287,8 @@ TEST(VertexStreams, theLastVertexOfEachTriangleHasTheNormalOfItsFront) {
     EXPECT_EQ(streams.facetNormalsOS.size(), streams.positionsOS.size());
 }
 
-/// Waves of triangles that share vertices. Every other two columns mirror their texture, so that tangents split the
-/// vertices between them; there and elsewhere two triangles of different planes end with the same vertex.
+/// A wavy grid with shared vertices. Every other two columns mirror their texture, so tangents split the vertices
+/// between them; there and elsewhere two triangles of different planes end at the same vertex.
 scenes::Scene wavyScene() {
     constexpr std::uint32_t kSide = 9;
     scenes::Scene scene = scenes::tinyScene();
@@ -338,9 +338,9 @@ TEST(VertexStreams, copiesOfLastVerticesKeepAllTheirOtherAttributes) {
         for (std::size_t i = 0; i < 3; ++i)
             area += glm::cross(glm::dvec3(full.positionsOS[full.indices[corner + i]]),
                                glm::dvec3(full.positionsOS[full.indices[corner + (i + 1) % 3]]));
-        // The scene's corners have different normals close to it, by which it is twice as long.
+        // The corner normals differ and are close to the triangle's, so the stored normal is twice as long.
         const glm::dvec3 stored = 0.5 * glm::dvec3(full.facetNormalsOS[full.indices[corner + 2]]);
-        // Of fp32 three roundings.
+        // Three roundings of fp32.
         EXPECT_LT(glm::distance(stored, glm::normalize(area)), 3.0 * 0x1p-24) << "triangle " << corner / 3;
     }
 }

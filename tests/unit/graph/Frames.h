@@ -6,7 +6,7 @@
 #include "renderer/graph/Compile.h"
 #include "renderer/graph/Graph.h"
 
-/// Short ways of declaring frames in tests.
+/// Helpers that declare frames in tests.
 namespace tessera::graph::test {
 
 inline constexpr TextureDesc kColor{.format = Format::Rgba16Float, .width = 64, .height = 32};
@@ -15,13 +15,13 @@ inline constexpr BufferDesc kBytes{.bytes = 256};
 
 struct None {};
 
-/// A pass of which only the declaration matters.
+/// Adds a pass with an empty body.
 inline void declare(Graph& graph, const std::string& name, const std::function<void(PassBuilder&)>& setup) {
     graph.addPass<None>(
         name, [&](PassBuilder& builder, None&) { setup(builder); }, [](const None&, const PassContext&) {});
 }
 
-/// A pass that creates one texture of its inputs.
+/// Adds a pass that creates a texture from its inputs.
 inline TextureHandle draw(Graph& graph, const std::string& name, const std::string& output,
                           const std::vector<TextureHandle>& inputs = {}, const TextureDesc& desc = kColor) {
     TextureHandle handle;
@@ -33,7 +33,7 @@ inline TextureHandle draw(Graph& graph, const std::string& name, const std::stri
     return handle;
 }
 
-/// A pass that adds to a texture.
+/// Adds a pass that blends into a texture.
 inline TextureHandle blend(Graph& graph, const std::string& name, TextureHandle target,
                            const std::vector<TextureHandle>& inputs = {}) {
     TextureHandle handle;
@@ -44,7 +44,7 @@ inline TextureHandle blend(Graph& graph, const std::string& name, TextureHandle 
     return handle;
 }
 
-/// A pass that only reads, and is kept for it.
+/// Adds a pass that only reads and is kept.
 inline void consume(Graph& graph, const std::string& name, const std::vector<TextureHandle>& inputs) {
     declare(graph, name, [&](PassBuilder& builder) {
         for (const TextureHandle input : inputs) builder.read(input);
@@ -67,7 +67,7 @@ inline std::vector<std::string> faultsOf(const Graph& graph) {
     return {};
 }
 
-/// Those of a frame of one pass, "p".
+/// Returns the faults of a frame with a single pass, "p".
 inline std::vector<std::string> faultsOfPass(const std::function<void(PassBuilder&)>& setup) {
     Graph graph;
     declare(graph, "p", setup);

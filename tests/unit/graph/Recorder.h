@@ -10,13 +10,13 @@
 #include "Frames.h"
 #include "renderer/graph/Execute.h"
 
-/// A backend that writes down what it is asked to do.
+/// A backend that records its calls.
 namespace tessera::graph::test {
 
-/// Where a texture or a buffer could lie.
+/// Storage for a stand-in texture or buffer.
 struct alignas(std::max_align_t) Place {};
 
-/// Stands for textures and buffers, of which only the address matters here.
+/// Returns a stand-in for a texture or buffer; only its address matters.
 template <typename Resource>
 const Resource& standIn(const Place& place) {
     return reinterpret_cast<const Resource&>(place);
@@ -67,7 +67,7 @@ public:
     bool failsAtEnd = false;
 };
 
-/// A pass that is kept and runs this.
+/// Adds a kept pass with this body.
 inline void keptPass(
     Graph& graph, const std::string& name, std::function<void(const PassContext&)> body,
     const std::function<void(PassBuilder&)>& setup = [](PassBuilder&) {}) {

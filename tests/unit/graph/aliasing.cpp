@@ -119,7 +119,7 @@ Graph randomFrame(std::mt19937& random) {
     return graph;
 }
 
-/// Every position at which a resource must keep its memory, straight from the declaration.
+/// Positions at which a resource must keep its memory, derived from the declaration alone.
 std::vector<bool> occupied(const Graph& graph, const CompiledGraph& compiled, std::uint32_t resource) {
     std::vector<bool> used(compiled.order.size(), false);
     for (std::size_t position = 0; position < used.size(); ++position)
@@ -176,7 +176,7 @@ TEST(Aliasing, randomFramesNeverShareMemoryWhileBothLiveAndNeverWasteAny) {
                 << "seed " << seed;
         }
     }
-    EXPECT_GT(shared, 200); // else the frames were too simple to test anything
+    EXPECT_GT(shared, 200); // otherwise the frames were too simple to test anything
 }
 
 } // namespace

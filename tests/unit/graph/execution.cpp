@@ -79,7 +79,7 @@ TEST(Execution, handlesResolveToTheirAllocationOrImport) {
     EXPECT_EQ(&execution.buffer(lights), &standIn<gpu::Buffer>(lightsPlace));
 }
 
-/// A pass that makes room for so many bytes in a buffer that grows, and asks how many it holds.
+/// A kept pass with a growable buffer of this declared size, which `body` may query.
 struct Grown {
     BufferHandle list;
 };

@@ -10,12 +10,12 @@
 namespace tessera::graph::test {
 namespace {
 
-/// What OpenGL's memory model says of an access (OpenGL 4.5 core specification, section 7.13.2), written down a second
-/// time: this oracle shares nothing with the rules that it checks.
+/// Properties of an access by OpenGL's memory model (OpenGL 4.5 core specification, section 7.13.2), stated
+/// independently of the rules under test.
 struct Model {
     bool stores;   ///< by a shader, which GL does not order
     bool fetches;  ///< by a shader or the pipeline in front of it
-    unsigned bits; ///< that make earlier stores visible to it
+    unsigned bits; ///< barriers that make earlier stores visible to it
 };
 
 unsigned bitsOf(Barrier barrier) {
@@ -58,7 +58,7 @@ Model modelOf(Access access) {
 
 constexpr unsigned kEveryBit = (1u << 9) - 1;
 
-/// The history of a frame by brute force: who touched which memory when, and which bits were issued when.
+/// Brute-force history of a frame: accesses of each pass to memory, and the barrier bits before each pass.
 class History {
 public:
     History(const Graph& graph, const CompiledGraph& compiled) : graph_(graph), compiled_(compiled) {}
@@ -70,7 +70,7 @@ public:
         return wanted;
     }
 
-    /// What the pass at a position has to wait for.
+    /// Returns the barrier bits that the pass at a position needs.
     unsigned needed(int position) const {
         unsigned bits = 0;
         for (const Graph::Use& use : usesAt(position)) {
@@ -85,7 +85,7 @@ public:
         return bits;
     }
 
-    /// What the next frame has to wait for.
+    /// Returns the barrier bits that the next frame needs.
     unsigned neededAfter() const {
         const int end = int(compiled_.order.size());
         unsigned bits = 0;
@@ -105,7 +105,7 @@ private:
                           compiled_.resources[a].physical == compiled_.resources[b].physical);
     }
 
-    /// The latest pass before a position that did something to the memory of a resource.
+    /// Returns the latest pass before a position whose access to a resource's memory has the property `deed`.
     std::optional<int> latest(std::uint32_t resource, int before, bool Model::*deed) const {
         for (int position = before - 1; position >= 0; --position)
             for (const Graph::Use& use : usesAt(position))
@@ -117,7 +117,7 @@ private:
     const CompiledGraph& compiled_;
 };
 
-/// Draws frames of all accesses: transients that may share memory, ones that grow, imports and persistent ones.
+/// A random frame with all accesses: transients that may share memory, growable ones, imports and persistent ones.
 class RandomFrame {
 public:
     explicit RandomFrame(std::uint64_t seed) : random_(seed) {
@@ -150,7 +150,7 @@ private:
         });
     }
 
-    /// A use of a resource that the pass does not use yet.
+    /// Adds a use of a resource that the pass does not use yet.
     void addUse(PassBuilder& builder, std::vector<std::uint32_t>& used) {
         const int kind = random_.index(8);
         if (kind == 0) {
@@ -200,7 +200,7 @@ private:
         }
     }
 
-    /// A framebuffer has one depth texture, so a pass uses no other.
+    /// Uses a depth texture; a framebuffer has one, so a pass uses no other.
     void useDepth(PassBuilder& builder, std::vector<std::uint32_t>& used) {
         for (const TextureHandle depth : depths_)
             if (std::find(used.begin(), used.end(), depth.resource) != used.end()) return;

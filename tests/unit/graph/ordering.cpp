@@ -82,7 +82,7 @@ TEST(Ordering, eachKnotIsReportedOnce) {
                             "'three' reads 'd' from 'four'"));
 }
 
-/// Plays the order back on memory that only holds the newest version: each reader must find the version it asked for.
+/// Replays the order on memory that holds only the newest version; each reader must find its declared version.
 TEST(Ordering, randomFramesReadTheirDeclaredVersions) {
     int compiledFrames = 0;
     for (unsigned seed = 0; seed < 300; ++seed) {
@@ -116,7 +116,7 @@ TEST(Ordering, randomFramesReadTheirDeclaredVersions) {
                 if (use.isWrite) held[use.resource] = use.version;
         }
     }
-    EXPECT_GT(compiledFrames, 50); // else the test would have looked at next to nothing
+    EXPECT_GT(compiledFrames, 50); // otherwise hardly anything is tested
 }
 
 } // namespace

@@ -24,7 +24,7 @@ std::vector<std::string> linesOf(const std::string& text) {
     return lines;
 }
 
-/// Small, but with everything: aliasing, a barrier, an import, an addition, a culled pass, a feature left out.
+/// A small frame with aliasing, a barrier, an import, an addition, a culled pass and an omitted feature.
 Plan examplePlan() {
     Graph graph;
     const TextureHandle window = graph.import("window", {.format = Format::Srgb8Alpha8, .width = 64, .height = 32});

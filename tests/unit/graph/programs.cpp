@@ -7,7 +7,7 @@ namespace {
 
 using testing::ElementsAre;
 
-/// Hands out a stand-in for each program that it is asked for, and notes its name.
+/// A program source that returns a stand-in for each program and records its name.
 class Programs : public ProgramSource {
 public:
     const gpu::Program& get(const ProgramDesc& desc) override {
@@ -94,7 +94,7 @@ TEST(Execution, constantsGoWithTheProgramsOfTheirPass) {
     EXPECT_THAT(backend.calls, testing::Contains("constants 2, 16 bytes, 1 programs"));
 }
 
-/// A frame that shades with a shadow map, and draws that first where it is not held.
+/// A frame that shades with a persistent shadow map and draws the map first unless it is held.
 Graph shadowedFrame(bool holds) {
     Graph graph([holds](const std::string&, const ResourceDesc&, std::uint64_t) { return holds; });
     TextureHandle shadows = graph.persist("shadows", kDepth, 7);

@@ -3,10 +3,10 @@
 
 #include "scenes/Load.h"
 
-// Beside LoadOptions, so that calls find it.
+// In the namespace of LoadOptions, for argument-dependent lookup.
 namespace tessera::scenes {
 
-/// Options with this value of one of them.
+/// Returns options with one member set.
 template <typename Member, typename Value>
 LoadOptions loading(Member LoadOptions::*member, Value value) {
     LoadOptions options;
@@ -18,12 +18,12 @@ LoadOptions loading(Member LoadOptions::*member, Value value) {
 
 namespace tessera::scenes::test {
 
-/// For built-in scenes without the scans that this machine may have.
+/// Options for built-in scenes without installed scans.
 inline LoadOptions withoutAssets() {
     return loading(&LoadOptions::useAssets, false);
 }
 
-/// The same, with a number of lights.
+/// Same, with a number of lights.
 inline LoadOptions withLights(int count) {
     LoadOptions options = withoutAssets();
     options.lights = count;

@@ -10,8 +10,8 @@
 
 namespace tessera::scenes {
 
-/// Compares members with numbers that are written as in "metallic 0.5, emissive 1 2 3, doubleSided 1": by the names of
-/// `fields`, each value exactly the nearest to its text.
+/// Expects members to have the values of a text such as "metallic 0.5, emissive 1 2 3, doubleSided 1". `fields` names
+/// the members; each value is exactly the nearest to its text.
 template <typename Owner, typename Fields>
 void expectFields(const Owner& owner, const Fields& fields, const std::string& wanted) {
     std::istringstream parts(wanted);

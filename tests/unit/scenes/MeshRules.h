@@ -5,8 +5,8 @@
 
 namespace tessera::scenes {
 
-/// What every generated mesh keeps: unit normals, texture coordinates, and triangles that face where each of their
-/// normals points. Reports the first offender of each kind only.
+/// Expects the rules of generated meshes: unit normals, texture coordinates, and triangles that face the side of their
+/// vertex normals. Reports the first offender of each kind only.
 inline void expectMeshRules(const Mesh& mesh) {
     ASSERT_EQ(mesh.normalsOS.size(), mesh.positionsOS.size()) << mesh.name;
     ASSERT_EQ(mesh.texCoords[0].size(), mesh.positionsOS.size()) << mesh.name;

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as bytes: seeds of the fuzzers' corpus, TIFFs made entry by entry, and what reading them costs.
+// Images as bytes: seeds of the fuzzers' corpus, TIFFs built entry by entry, and the memory cost of reading them.
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -23,7 +23,7 @@ inline std::string bytesOfSeed(const char* name) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// What the folder of TESSERA_ASSETS has of the scanned head, with a triangle in the place of the scan.
+/// Writes the scanned head's files of a TESSERA_ASSETS folder, with a triangle instead of the scan.
 inline void writeScan(const TempFolder& folder) {
     folder.write("LeePerrySmith/head.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
     for (const char* name : {"albedo_2k.jpg", "specular_2k.jpg", "normal_object_2k.jpg"})
@@ -40,7 +40,7 @@ inline std::string refusalOf(const std::string& bytes, const std::string& name,
     return inputErrorOf([&] { decoded(bytes, name, limitBytes); });
 }
 
-/// Numbers of texels as the image stores them.
+/// Stored texel values of an image.
 template <typename T>
 std::vector<T> storedTexels(const Image& image) {
     std::vector<T> texels(image.texels.size() / sizeof(T));
@@ -48,7 +48,7 @@ std::vector<T> storedTexels(const Image& image) {
     return texels;
 }
 
-/// A line of /proc/self/status, or 0.
+/// A size of /proc/self/status in bytes, or 0.
 inline std::uint64_t statusBytes(std::string_view key) {
     std::ifstream status("/proc/self/status");
     for (std::string line; std::getline(status, line);)
@@ -56,7 +56,7 @@ inline std::uint64_t statusBytes(std::string_view key) {
     return 0;
 }
 
-/// By how much the process grows at most while this runs. Source: Linux, proc(5): 5 sets the peak to what is in use.
+/// Peak growth of the process while `action` runs. Source: Linux, proc(5): writing 5 resets the peak.
 inline std::uint64_t growthOf(const std::function<void()>& action) {
     std::ofstream clear("/proc/self/clear_refs");
     EXPECT_TRUE(clear << 5 << std::flush) << "the peak stays what it was, and nothing can be measured";
@@ -66,7 +66,7 @@ inline std::uint64_t growthOf(const std::function<void()>& action) {
     return statusBytes("VmHWM:") - before;
 }
 
-/// An entry of a TIFF's directory. `isPlace`: its value is a place in what follows the directory.
+/// An entry of a TIFF's directory. `isPlace`: its value is an offset into the data after the directory.
 struct TiffEntry {
     int tag, type;
     std::uint32_t count, value;
@@ -82,7 +82,7 @@ inline std::string numberText(std::uint32_t number, int bytes, ByteOrder order) 
     return text;
 }
 
-/// A PFM picture, rows given from the top.
+/// A PFM image, rows given from the top.
 inline std::string pfmOf(int width, int height, const std::vector<float>& rgb) {
     std::string text = "PF\n" + std::to_string(width) + " " + std::to_string(height) + "\n-1.0\n";
     for (int y = height - 1; y >= 0; --y)
@@ -107,8 +107,8 @@ inline std::string pngChunk(const std::string& name, const std::string& content)
            numberText(crcOf(name + content), 4, ByteOrder::Big);
 }
 
-/// An uncompressed PNG of these bits a channel; colour types are 0 grey, 2 RGB, 4 grey and alpha, 6 RGBA. `claimedSide`
-/// is what its header says of both sides, if not the truth. Source: RFC 2083, RFC 1951 section 3.2.4.
+/// An uncompressed PNG with these bits per channel; colour types are 0 grey, 2 RGB, 4 grey and alpha, 6 RGBA. A
+/// `claimedSide` replaces both sides in its header. Source: RFC 2083, RFC 1951 section 3.2.4.
 inline std::string pngOf(int width, int height, int bits, int colourType, const std::string& texels,
                          int claimedSide = 0) {
     const auto big = [](int value, int bytes) { return numberText(std::uint32_t(value), bytes, ByteOrder::Big); };
@@ -145,13 +145,13 @@ inline std::string tiffOf(const std::vector<TiffEntry>& entries, const std::stri
     return tiff + number(0, 4) + rest;
 }
 
-/// One grey texel, 0x7f, the first of what follows the directory.
+/// Entries of a single grey texel, 0x7f, which is the first byte after the directory.
 inline std::vector<TiffEntry> oneTexel() {
     return {{256, kShort, 1, 1},      {257, kShort, 1, 1}, {258, kShort, 1, 8}, {262, kShort, 1, 1},
             {273, kLong, 1, 0, true}, {278, kShort, 1, 1}, {279, kLong, 1, 1}};
 }
 
-/// A texel with one more entry, of type `type`, that has this value.
+/// A TIFF of one texel with one more entry, of type `type`, that has this value.
 inline std::string tiffWith(int tag, const std::string& value, int type = kByte) {
     std::vector<TiffEntry> entries = oneTexel();
     const std::size_t size = type == kShort ? 2 : 1;

@@ -16,10 +16,10 @@ namespace tessera::scenes::test {
 
 using testing::AllOf, testing::ElementsAre, testing::HasSubstr, testing::IsEmpty, testing::StartsWith;
 
-/// A temporary folder that can also hold pictures.
+/// A temporary folder that can also hold images.
 class TempFolder : public tessera::test::TempFolder {
 public:
-    /// A TGA picture of `texels` RGBA texels, rows from the top.
+    /// Writes a TGA image of `texels` RGBA texels, rows from the top.
     std::filesystem::path writePicture(const std::string& name, int width, int height,
                                        const std::vector<std::array<std::uint8_t, 4>>& texels) const {
         std::string bytes(18, '\0');
@@ -34,7 +34,7 @@ public:
     }
 };
 
-/// The text of the InputError that `action` must throw.
+/// Returns the text of the InputError that `action` must throw.
 inline std::string inputErrorOf(const std::function<void()>& action) {
     try {
         action();

@@ -3,7 +3,7 @@
 
 namespace tessera::scenes {
 
-/// One white triangle in the plane z = 0 that faces +Z: the least scene that passes checkScene().
+/// One white triangle in the plane z = 0 that faces +Z: the smallest scene that passes checkScene().
 inline Scene tinyScene() {
     Scene scene;
     scene.name = "tiny";

@@ -89,7 +89,7 @@ TEST(LightCorners, whatIsNoOutlineIsNamed) {
              std::pair{cornersOf({{0, 0}, {1, 0}, {0, 1}}), ""},
              {cornersOf({{0, 0}, {0, 1}, {1, 0}}), ""},            // the other way round
              {cornersOf({{0, 0}, {1, 0}, {2, 0}, {0, 1}}), ""},    // one on a straight edge
-             {cornersOf({{0, 0}, {2, 0}, {2, 2}, {1, 0.5f}}), ""}, // one that points inwards
+             {cornersOf({{0, 0}, {2, 0}, {2, 2}, {1, 0.5f}}), ""}, // a reflex corner
              {cornersOf({{0, 0}, {1, 0}}), "number 2; 3 to 8 are needed"},
              {cornersOf({{0, 0}, {2e6f, 0}, {0, 1}}),
               "have number 1 at (2e+06, 0); both must lie between -1e+06 and 1e+06 m"},
@@ -129,7 +129,7 @@ TEST(AreaLight, itsShadowsSeeADiskOfTheAreaThatItShowsAtMost) {
     EXPECT_DOUBLE_EQ(surfaceReachMetres(light), std::hypot(0.5, 1.5));
 }
 
-/// The part of a light's surface that faces a point, as small pieces: each with its solid angle.
+/// Solid angle of the surface parts that face a point, summed over small pieces.
 double solidAngleFrom(const Light& light, const glm::dvec3& from) {
     constexpr int kSteps = 60;
     double sum = 0.0;

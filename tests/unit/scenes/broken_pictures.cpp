@@ -1,4 +1,4 @@
-// Files that are damaged or cut short are drawn as far as they can be read.
+// Damaged or truncated image files are decoded as far as possible.
 #include <cstdio> // jpeglib.h needs it first
 #include <random>
 
@@ -14,7 +14,7 @@ using namespace test;
 
 constexpr int kNoisySide = 48;
 
-/// Of 48x48 texels that compress badly.
+/// 48x48 random texels, which compress badly.
 std::vector<std::uint8_t> noise() {
     std::mt19937 random(7);
     std::vector<std::uint8_t> rgb(kNoisySide * kNoisySide * 3);
@@ -54,7 +54,7 @@ std::string noisyPng() {
     return {file.begin(), file.end()};
 }
 
-/// Where the check sum of the only IDAT chunk begins.
+/// Returns where the check sum of the only IDAT chunk begins.
 std::size_t endOfTexels(const std::string& png) {
     const std::size_t name = png.find("IDAT");
     std::uint32_t length = 0;
@@ -81,7 +81,7 @@ std::string strictRefusalOf(const std::string& bytes, const std::string& name) {
     return inputErrorOf([&] { decodeImage(std::as_bytes(std::span(bytes)), name, ledger); });
 }
 
-/// The rows from the top that two images of one size share.
+/// Returns the number of equal rows, from the top, of two images of one size.
 int sameRows(const Image& a, const Image& b) {
     EXPECT_EQ(a.texels.size(), b.texels.size());
     const std::size_t rowBytes = a.texels.size() / std::size_t(a.height);
@@ -108,7 +108,7 @@ TEST(BrokenPictures, aPngWithAllItsTexelsIsDrawnWhole) {
     const std::string noEnd = png.substr(0, end + 4);
     std::string wrongCrc = png, wrongSum = png, noCrc = png.substr(0, end);
     wrongCrc[end] = char(~wrongCrc[end]);
-    wrongSum[end - 1] = char(~wrongSum[end - 1]); // of zlib
+    wrongSum[end - 1] = char(~wrongSum[end - 1]); // the check sum of zlib
     const std::size_t name = png.find("IDAT");
     wrongSum.replace(end, 4, numberText(crcOf(wrongSum.substr(name, end - name)), 4, ByteOrder::Big));
     for (const std::string& broken : {noEnd, wrongCrc, wrongSum, noCrc}) {
@@ -142,7 +142,7 @@ TEST(BrokenPictures, aJpegThatIsCutShortIsDrawnUpToThere) {
         const LenientRead noEnd = readLeniently(jpeg.substr(0, jpeg.size() - 2), "a.jpg");
         EXPECT_THAT(noEnd.warnings, IsEmpty());
         EXPECT_EQ(noEnd.image.texels, whole.image.texels);
-        // Half of what follows the header of the first scan.
+        // Half of the data after the header of the first scan.
         const std::size_t scan = jpeg.find("\xff\xda");
         ASSERT_NE(scan, std::string::npos);
         const std::string cut = jpeg.substr(0, scan + 2 + (jpeg.size() - scan) / 2);

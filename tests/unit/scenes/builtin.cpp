@@ -1,4 +1,4 @@
-// What holds for every built-in scene.
+// Rules of every built-in scene.
 #include <algorithm>
 #include <ostream>
 
@@ -15,7 +15,7 @@
 
 namespace tessera::scenes {
 
-/// How GoogleTest shows a scene in a test's name.
+/// Prints a scene in the names of tests (GoogleTest).
 void PrintTo(const BuiltinScene& scene, std::ostream* out) {
     *out << scene.name;
 }
@@ -34,7 +34,7 @@ void expectCamerasWithinReach(const Scene& scene) {
     }
 }
 
-/// Everything stored is used by an instance, and textured meshes have the coordinates for it.
+/// Expects an instance to use each mesh, material and image, and textured meshes to have texture coordinates.
 void expectAllUsed(const Scene& scene) {
     std::vector<bool> meshUsed(scene.meshes.size());
     std::vector<bool> materialUsed(scene.materials.size());
@@ -62,7 +62,7 @@ protected:
     void expectTheSameTwice();
     void expectChargedBefore();
 };
-/// Of all scenes; the other suite is without those whose pictures take seconds to make.
+/// Tests all scenes; the other suite omits scenes whose images take seconds to make.
 class BuiltinScenesSlow : public BuiltinScenes {};
 
 void BuiltinScenes::expectSound() {

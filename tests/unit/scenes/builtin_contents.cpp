@@ -1,4 +1,4 @@
-// What each built-in scene shows and is lit by, as the documents say of it.
+// Contents and lights of each built-in scene, as documented.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -22,7 +22,7 @@ namespace {
 using test::withLights;
 using test::withoutAssets;
 
-/// What the hall's point lights would shed in all: the sum of colour times intensity.
+/// The total power of the hall's point lights: the sum of colour times intensity.
 double power(int count) {
     Scene scene;
     builtin::hall::addPointLights(scene, count);
@@ -60,7 +60,7 @@ TEST(Hall, hasItsStatedSizeAndLights) {
     }
 }
 
-/// How many edges of triangles lie on a round head, by their ends, to a tenth of a millimetre.
+/// Counts the triangles at each edge of an arch's round head, by the edge's ends to a tenth of a millimetre.
 std::map<std::pair<std::array<long, 3>, std::array<long, 3>>, int>
 edgesOfHead(const std::vector<Mesh>& meshes, int axis, double plane, const glm::dvec3& middle, double radius) {
     std::map<std::pair<std::array<long, 3>, std::array<long, 3>>, int> edges;
@@ -82,7 +82,7 @@ edgesOfHead(const std::vector<Mesh>& meshes, int axis, double plane, const glm::
     return edges;
 }
 
-// The sun shone through gaps between them, in dots.
+// Earlier, sunlight leaked through gaps between them in dots.
 TEST(Hall, alcovesMeetTheWallsBeforeThem) {
     using namespace builtin::hall;
     const auto expectShared = [](const auto& edges, std::size_t count) {
@@ -96,7 +96,7 @@ TEST(Hall, alcovesMeetTheWallsBeforeThem) {
 
 TEST(Hall, brightnessNeverDependsOnTheNumberOfLights) {
     const double usual = power(256);
-    // 64 lights may be four times as strong; they are spread over places of unlike strength.
+    // 64 lights may be four times as strong; their places have different strengths.
     EXPECT_NEAR(power(64), usual, 0.2 * usual);
     EXPECT_NEAR(power(1000), usual, 0.05 * usual);
     // 65,536 roundings of an intensity to single precision.
@@ -158,12 +158,12 @@ TEST(Lamps, whatIsSeenToShineNeverGetsItsOwnLight) {
         for (std::size_t i = 0; i < glow.positionsOS.size(); ++i) {
             const glm::dvec3 fromLight = glm::dvec3(glow.positionsOS[i]) - place.light.positionWS;
             const glm::dvec3 normal(glow.normalsOS[i]);
-            // Before a side and facing away, or behind a light that has no back. Half of the 5 mm between them: the
-            // rounding of a position 24 m away is 2e-6 m.
+            // Either before a side and facing away, or behind a one-sided light. The threshold is half of the 5 mm
+            // between them; rounding of a position 24 m away is 2e-6 m.
             const bool facesAway = glm::dot(normal, fromLight) > 0.0025;
             const bool isBehind = !place.light.isTwoSided && glm::dot(place.light.directionWS, fromLight) < -0.0025;
             EXPECT_TRUE(facesAway || isBehind) << place.light.name;
-            // And it is as large as the light.
+            // The glowing surface is as large as the light.
             EXPECT_NEAR(glm::length(fromLight), std::hypot(surfaceReachMetres(place.light), 0.005), 1e-5);
         }
     }

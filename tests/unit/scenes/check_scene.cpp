@@ -18,7 +18,7 @@ Environment sky(float radiance, float intensity, float rotationDegrees) {
             rotationDegrees};
 }
 
-/// At the origin, at those times.
+/// Adds keyframes at the origin at these times.
 LightKeys& giveKeyframes(Light& light, std::vector<double> timesSeconds) {
     LightAnimation& animation = light.animation.emplace();
     animation.kind = LightAnimationKind::Keyframes;
@@ -288,7 +288,7 @@ TEST(CheckScene, extremesThatAreAllowedPass) {
                   s.environment = sky(1e-8f, 1e38f, -3e38f);
               }),
               "");
-    // A bound that single precision rounds is as files give it.
+    // Bounds rounded to single precision, as files give them, are accepted.
     for (const double scale : {kLeastScaleMetres, kMostScaleMetres})
         EXPECT_EQ(verdict([=](Scene& s) { s.materials[0].subsurface.scaleMetres = float(scale); }), "") << scale;
 }

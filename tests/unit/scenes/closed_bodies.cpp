@@ -1,4 +1,4 @@
-// Which meshes have an inside, by which rays leave bodies of glass.
+// Detection of closed meshes, which decides how rays leave bodies of glass.
 #include "scenes/ClosedBodies.h"
 
 #include <algorithm>
@@ -64,7 +64,7 @@ TEST(ClosedBodies, aBodyIsClosedWhereAllMeshesThatShowItAre) {
     ClosedMeshes meshes;
     EXPECT_EQ(closedBodies(scene, meshes), (std::vector<bool>{true, false, false, false}));
     EXPECT_TRUE(hasClosedBodies(scene, meshes));
-    // Vertices that move apart open a mesh once it is told, and close it again.
+    // Moving a vertex opens a mesh, and moving it back closes the mesh, once verticesMoved() is called.
     const float rest = scene.meshes[0].positionsOS[0].x;
     for (const bool isMoved : {true, false}) {
         scene.meshes[0].positionsOS[0].x = isMoved ? rest + 1e-3f : rest;

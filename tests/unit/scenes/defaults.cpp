@@ -18,7 +18,7 @@ constexpr double kDefaultsRounding = 1e-12; // a dozen operations in double on n
 
 TEST(DefaultCamera, seesTheWholeFromTheSpecifiedDirection) {
     Scene scene = tinyScene();
-    scene.meshes[0].positionsOS[2].z = 3.0f; // else it is flat
+    scene.meshes[0].positionsOS[2].z = 3.0f; // otherwise it is flat
     addDefaultCamera(scene);
     ASSERT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(suppliedText(scene), "no camera in it: seen whole by the supplied camera 'default'");
@@ -103,11 +103,11 @@ TEST(DefaultLight, isTheStudioBeforeABlurredBackdrop) {
 
 TEST(DefaultLight, standsAroundAnyCameraAsAroundTheDefaultOne) {
     Scene plain = tinyScene();
-    plain.meshes[0].positionsOS[2].z = 3.0f; // a flat one is seen face-on
+    plain.meshes[0].positionsOS[2].z = 3.0f; // a flat scene is viewed face-on
     addDefaultCamera(plain);
     EXPECT_NEAR(litByDefault(plain).environment->rotationDegrees, 0.0, 1e-4);
 
-    // What a camera sees straight ahead lies in the map where the default one sees it.
+    // The map is rotated so that every camera faces the same part of it as the default one.
     Scene scene = tinyScene();
     scene.cameras.resize(3);
     scene.cameras[1].name = "side"; // looks along -X

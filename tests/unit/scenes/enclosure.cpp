@@ -1,4 +1,4 @@
-// Which scenes a supplied camera sees from inside.
+// Scenes that a supplied camera views from inside.
 #include "scenes/Enclosure.h"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ namespace {
 
 enum class Facing : std::uint8_t { Inwards, Outwards };
 
-/// Adds a box about the origin of the floor's middle, whose faces look one way; `walls` of its six, +x, -x, +y, -y, +z
-/// and -z.
+/// Adds a box whose faces all face inwards or outwards, with the centre of its floor at `atWS`; `walls` are some of its
+/// faces +x, -x, +y, -y, +z and -z.
 void addBox(Scene& scene, const glm::dvec3& sides, Facing facing, std::initializer_list<int> walls,
             const glm::dvec3& atWS = {}) {
     Mesh& mesh = scene.meshes[0];
@@ -81,7 +81,7 @@ TEST(Enclosure, thingsAreSeenFromOutside) {
     EXPECT_FALSE(framingInside(box({10.0, 6.0, 8.0}, Facing::Inwards, {0, 1, 2, 4, 5})).has_value()) << "no floor";
     EXPECT_FALSE(framingInside(tinyScene()).has_value());
     EXPECT_FALSE(framingInside(nothing()).has_value());
-    Scene table = nothing(); // things on a board
+    Scene table = nothing(); // objects on a board
     addBox(table, {20.0, 0.1, 20.0}, Facing::Outwards, {0, 1, 2, 3, 4, 5});
     for (const double x : {-6.0, 6.0})
         for (const double z : {-6.0, 6.0})

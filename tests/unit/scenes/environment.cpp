@@ -30,7 +30,7 @@ TEST(Environment, directionsAndPlacesOfAMapAgreeAndItsMiddleLooksAlongMinusZ) {
         EXPECT_NEAR(place.y, y, 1e-12);
     };
     expectPlace({0, 0, -1}, 0.5, 0.5);
-    expectPlace({1, 0, 0}, 0.75, 0.5); // to the right of who looks along -z
+    expectPlace({1, 0, 0}, 0.75, 0.5); // to the right when looking along -z
     expectPlace({-1, 0, 0}, 0.25, 0.5);
     EXPECT_EQ(placeInMap({0, 1, 0}).y, 0.0); // the pole lies anywhere along the row
     for (int i = 1; i < 20; ++i) {
@@ -54,7 +54,7 @@ TEST(Environment, numbersThatAreNoLightAreReplacedAndCounted) {
                   {1e30f, 2e30f, 3e38f, infinite, 0.0f, 0.0f},
                   {1e30f, 1e30f, 1e30f, 1.0f, 1e30f, 0.0f, 0.0f, 1.0f},
                   {"holds infinity in 1 number, taken as its brightest", "is above 1e+30 in 2 numbers, taken as that"}},
-                 // Of one texel, where nothing is brightest, so 1 is, and which has any shape.
+                 // One texel, which may have any aspect ratio. Without a finite maximum, infinity becomes 1.
                  {1,
                   {nan, -infinite, infinite},
                   {0.0f, 0.0f, 1.0f, 1.0f},
@@ -72,7 +72,7 @@ TEST(Environment, numbersThatAreNoLightAreReplacedAndCounted) {
     }
 }
 
-/// What a map's rows and columns send, by solid angle.
+/// The total light of a map, by solid angle.
 double lightOf(const Image& map) {
     const std::vector<float> numbers = storedTexels<float>(map);
     double sum = 0.0;
@@ -86,7 +86,7 @@ double lightOf(const Image& map) {
 
 TEST(Environment, mapsOfMoreTexelsThanAreKeptAreAveragedWithoutLossOfLight) {
     TempFolder folder;
-    // A sun of one texel, and a number that would spread.
+    // A sun of one texel, and a NaN that averaging would propagate.
     const auto write = [&](const std::string& name, int width, int height) {
         std::vector<float> rgb(std::size_t(3 * width * height), 0.125f);
         rgb[std::size_t(3 * (height / 3 * width + width / 5))] = 1e6f;
@@ -161,7 +161,7 @@ TEST(Environment, aMapIsNamedByASceneAndReplacedOrTakenAwayByWhoLoadsIt) {
     options.environment = "stdio";
     EXPECT_EQ(inputErrorOf([&] { loadScene(saved, options); }),
               "no built-in environment or picture file is called 'stdio'; did you mean 'studio'?");
-    // Light from everywhere is light: no default one is supplied.
+    // An environment counts as light, so no default light is supplied.
     options.environment = "sky";
     EXPECT_EQ(loadScene(saved, options).environment.value().source, "builtin:sky");
 }
@@ -179,7 +179,7 @@ TEST(Environment, aNameIsThatOfABuiltInOneAsSceneFilesWriteItTooAndOfAFileAlone)
     EXPECT_EQ(problem(path), path + ": is a folder; give a picture file or a glTF model in it");
     const std::string pipe = (folder.path() / "pipe.hdr").string();
     ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-    EXPECT_EQ(problem(pipe), pipe + ": is not a regular file; name the picture itself"); // and does not wait for it
+    EXPECT_EQ(problem(pipe), pipe + ": is not a regular file; name the picture itself"); // and does not block
     EXPECT_TRUE(problem(path + "/none.hdr").starts_with("no built-in environment or picture file is called '"));
 }
 
@@ -206,7 +206,7 @@ TEST(Environment, whoAsksIsToldHowMuchOfABuiltInMapIsComputed) {
     });
     std::vector<std::string> warnings;
     const Environment studio = loadEnvironment("builtin:studio", ledger, warnings);
-    std::ranges::sort(shares); // threads tell in any order
+    std::ranges::sort(shares); // threads report in any order
     ASSERT_EQ(shares.size(), std::size_t(studio.map.height));
     EXPECT_EQ(shares.front(), 1.0 / studio.map.height);
     EXPECT_EQ(shares.back(), 1.0);
@@ -233,7 +233,7 @@ TEST(Environment, wrongOnesAreRefusedByName) {
                        "and at most 1e+30 can be shown; lower its intensity");
 }
 
-/// Of level ground, divided by pi: the radiance of a white floor.
+/// Irradiance of level ground divided by pi: the radiance of a white floor.
 glm::dvec3 onGround(const Image& map) {
     const std::vector<float> texels = storedTexels<float>(map);
     glm::dvec3 sum(0.0);

@@ -20,8 +20,8 @@ using namespace test;
 
 constexpr double kExposureRounding = 1e-6;
 
-/// A matte card of 1 m in the plane z = 0, of a grid so fine that each of its triangles is a place, seen from above in
-/// parallel rays.
+/// A matte card of 1 m in the plane z = 0 before an orthographic camera. Its grid is so fine that one luminance per
+/// triangle is enough.
 Scene card() {
     constexpr int kSide = 16;
     Scene scene = tinyScene();
@@ -94,7 +94,7 @@ TEST(Exposure, surfacesCountByTheirTexturesEmissionAndSizeInThePicture) {
     Image& image = scene.images.emplace_back();
     image.width = 128;
     image.height = 64;
-    // Half black, half a grey that is a half as light: 188 of 255 by the sRGB function.
+    // Half black, half a grey of linear 0.5: sRGB code 188 of 255.
     for (int i = 0; i < image.width * image.height; ++i)
         for (int c = 0; c < 4; ++c) image.texels.push_back(std::byte(c == 3 || i % image.width < 64 ? 0 : 188));
     scene.materials[0].texture(TextureSlot::BaseColor).image = 0;
@@ -105,7 +105,7 @@ TEST(Exposure, surfacesCountByTheirTexturesEmissionAndSizeInThePicture) {
     scene.lights.clear();
     EXPECT_NEAR(luminanceSeen(scene), 2.25, 0.01) << "its colour needs no light";
     scene.materials[0].texture(TextureSlot::BaseColor).image = kNone;
-    // A black card of the same size beside it, then before the whole.
+    // A black card of the same size, first beside the view, then in it.
     scene.materials.emplace_back().baseColor = glm::vec4(0.0f);
     Node& other = scene.nodes.emplace_back(scene.nodes[0]);
     other.instances[0].material = 1;
@@ -163,7 +163,7 @@ std::string litModel(const TempFolder& folder, double lux, double roughness = 1.
 TEST(DefaultExposure, isGivenToAModelWhoseOwnLightsAreFarFromADisplays) {
     const TempFolder folder;
     const auto write = [&](double lux) { return litModel(folder, lux); };
-    const Scene bright = loadScene(write(1e5)); // the sun's, 1e5 / pi of a white card
+    const Scene bright = loadScene(write(1e5)); // sunlight: a white card has 1e5 / pi
     EXPECT_EQ(bright.options.wishes.at("exposureEV"), Wish(-16.0));
     EXPECT_THAT(suppliedText(bright),
                 HasSubstr("too bright for a display: exposed by -16 EV (--exposure chooses another)"));
@@ -178,7 +178,7 @@ TEST(DefaultExposure, isGivenToAModelWhoseOwnLightsAreFarFromADisplays) {
     EXPECT_FALSE(loadScene(write(0.01), options).options.wishes.contains("exposureEV"));
 }
 
-/// The studio's share of a bright picture, whatever the exposure.
+/// The intensity of the supplied environment, times the exposure.
 double fillOf(const Scene& scene) {
     const auto wish = scene.options.wishes.find("exposureEV");
     const double stops = wish == scene.options.wishes.end() ? 0.0 : std::get<double>(wish->second);

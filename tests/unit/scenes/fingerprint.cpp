@@ -13,7 +13,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// The least scene with one of everything that a scene may hold.
+/// The smallest scene with one of everything that a scene may hold.
 Scene sceneOfEverything() {
     Scene scene = riggedScene();
     scene.nodes[0].instances = scene.nodes[3].instances;
@@ -43,7 +43,7 @@ TextureUse& use(Scene& scene) {
     return scene.materials[0].texture(TextureSlot::BaseColor);
 }
 
-/// Another value of a member's type.
+/// Changes a member of any type.
 template <typename Value>
 void change(Value& value) {
     if constexpr (std::is_same_v<Value, bool>)
@@ -72,7 +72,7 @@ void change(Subsurface& subsurface) {
     subsurface.preScatterShare = 0.0f;
 }
 
-/// A change of each member of a table, of the element that `elementOf` finds.
+/// Adds a change of each member of a table, applied to the element that `elementOf` returns.
 template <typename Fields, typename ElementOf>
 void addFields(std::vector<Change>& changes, const char* of, const Fields& fields, ElementOf elementOf) {
     visitFields(fields, [&](const auto& field) {
@@ -215,7 +215,7 @@ TEST(Fingerprint, aChangeOfAnyFieldGivesAnotherOne) {
 }
 
 TEST(Fingerprint, anElementMovedToAnotherListChangesTheFingerprint) {
-    // Without the lengths between them, both would be the same bytes.
+    // Without lengths in between, both would be the same bytes.
     Scene a = tinyScene(), b = tinyScene();
     a.materials[0].name = std::string("ab");
     a.materials.emplace_back().name = std::string("c");
@@ -229,13 +229,13 @@ TEST(Fingerprint, equalScenesAndTheirWarningsGiveTheSameOne) {
     scene.warnings.push_back("the file has a feature that is left out");
     EXPECT_EQ(fingerprint(scene), fingerprint(sceneOfEverything()));
     EXPECT_EQ(fingerprint(loadScene("lattice")), fingerprint(loadScene("lattice")));
-    // Kept in the files of benches, and so the same in every build: FNV-1a of 159 zero bytes, which are eighteen
-    // lengths of 8, three floats of 4 and three absent options of 1.
+    // Benchmark files store it, so it is the same in every build: FNV-1a of 159 zero bytes, which are eighteen lengths
+    // of 8, three floats of 4 and three absent options of 1.
     EXPECT_EQ(fingerprint(Scene()), 0xfbe08face1831d47ull);
 }
 
 TEST(Fingerprint, bytesAloneHaveThePublishedHash) {
-    // Test vectors of the draft that the header names.
+    // Test vectors of the draft that the header cites.
     const auto of = [](std::string_view text) { return fingerprint(std::as_bytes(std::span(text))); };
     EXPECT_EQ(of(""), 0xcbf29ce484222325ull);
     EXPECT_EQ(of("a"), 0xaf63dc4c8601ec8cull);

@@ -16,7 +16,7 @@ namespace tessera::scenes {
 namespace {
 
 constexpr double kFovY = std::numbers::pi / 4.0;
-constexpr double kShare = 1.0 / 1.05; ///< of the picture that is filled, for its margin of 5 percent
+constexpr double kShare = 1.0 / 1.05; ///< fraction of the image that is filled, with a margin of 5 percent
 constexpr double kFramingRounding = 1e-9;
 
 /// A triangle of these corners.
@@ -26,8 +26,7 @@ Scene triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
     return scene;
 }
 
-/// How far vertices reach to the right, left, top and bottom, as shares of half the picture; the last is the least
-/// depth.
+/// The vertices' extents to the right, left, top and bottom, as fractions of half the image, and their least depth.
 struct Reached {
     double right = -1e9, left = -1e9, top = -1e9, bottom = -1e9, depth = 1e9;
 };
@@ -57,7 +56,7 @@ TEST(Framing, fillsThePictureUpToItsMarginAtAnyAspectAndLeavesNothingOut) {
             EXPECT_GT(reached.depth, 0.0);
             const double across = std::max(reached.left, reached.right), high = std::max(reached.top, reached.bottom);
             EXPECT_LE(std::max(across, high), kShare + kFramingRounding) << scene.name << " " << aspect;
-            // One pair of sides is reached, both of it.
+            // The scene touches both sides of one pair.
             const bool isWide = std::min(reached.left, reached.right) > kShare - kFramingRounding;
             const bool isHigh = std::min(reached.top, reached.bottom) > kShare - kFramingRounding;
             EXPECT_TRUE(isWide || isHigh) << scene.name << " " << aspect << ": " << across << " x " << high;
@@ -77,7 +76,7 @@ TEST(Framing, aFlatSceneIsSeenFaceOnFromTheSideThatItIsTurnedTo) {
     expect(forward(triangle({0, 0, 0}, {0, 2, 0}, {0, 0, 4})), {-1, 0, 0});
     expect(forward(triangle({0, 0, 0}, {0, 0, 4}, {2, 0.01f, 0})), {0, -1, 0});
     expect(forward(triangle({0, 0, 0}, {2, 0, 0}, {0, 4, 2})), -glm::normalize(glm::dvec3(1.0, 0.7, 1.0)));
-    // A line is flat in two directions, so in none.
+    // A line has no unique plane, so the default direction applies.
     expect(forward(triangle({0, 0, 0}, {0, 4, 0}, {0, 9, 0})), -glm::normalize(glm::dvec3(1.0, 0.7, 1.0)));
 }
 

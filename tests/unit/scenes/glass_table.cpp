@@ -1,4 +1,4 @@
-// The built-in scene glass: what stands on its table, and what its front camera sees of it.
+// The built-in scene glass: the objects on its table, and their visibility to the front camera.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -30,7 +30,7 @@ TEST(GlassTable, showsSheetsAndBodiesOfManyColoursInTheStudio) {
         sheets += material.thicknessMetres == 0.0f ? 1 : 0;
         const bool absorbs = material.attenuationDistanceMetres > 0.0f && material.attenuationColor != glm::vec3(1.0f);
         absorbing += absorbs ? 1 : 0;
-        // A sheet is tinted by its colour, a body by what it absorbs.
+        // Sheets are tinted by their colour, bodies by absorption.
         EXPECT_EQ(absorbs, material.thicknessMetres > 0.0f) << material.name;
         EXPECT_EQ(material.doubleSided, material.name.ends_with(" pane")) << material.name;
     }
@@ -52,7 +52,7 @@ struct FlatTriangle {
     }
 };
 
-/// Of a node without a parent.
+/// Triangles of a node without a parent, in world space.
 std::vector<FlatTriangle> trianglesOf(const Scene& scene, const Node& node) {
     std::vector<FlatTriangle> triangles;
     for (const MeshInstance& instance : node.instances) {
@@ -106,7 +106,7 @@ TEST(GlassTable, theOrangeStandsOnTheTableWithNothingBeforeIt) {
     }
 }
 
-/// Faces of a few tones: else a prism is a grey slab.
+/// The faces must differ in tone; otherwise a prism is a grey slab.
 TEST(GlassTable, thePrismShowsThreeFacesAndOneOfThemMirrorsALampOfTheStudio) {
     const Scene scene = underLedger(builtin::makeGlass, withoutAssets());
     const glm::dvec3 eyeWS = frontEyeWS(scene);
@@ -124,7 +124,7 @@ TEST(GlassTable, thePrismShowsThreeFacesAndOneOfThemMirrorsALampOfTheStudio) {
     };
     struct Seen {
         glm::dvec3 normalWS;
-        double area = 0.0, mirrored = 0.0; ///< as seen, square metres; the mean over places of it
+        double area = 0.0, mirrored = 0.0; ///< projected area in square metres; mean mirrored radiance
     };
     std::vector<Seen> faces;
     double whole = 0.0;

@@ -9,13 +9,13 @@
 #include "tests/unit/scenes/json/SceneFiles.h"
 #include "tests/unit/scenes/obj/ObjFiles.h"
 
-/// The time of loading grows with the size of the file, and no faster.
+/// Loading time grows linearly with the size of the file.
 namespace tessera::scenes {
 namespace {
 
 using namespace test;
 
-/// Linear loading takes about a second of each file here; quadratic loading took minutes. The rest is room for
+/// Linear loading takes about a second for each file here; quadratic loading took minutes. The rest is a margin for
 /// slower machines.
 #ifdef __SANITIZE_ADDRESS__
 constexpr double kSeconds = 100.0; // sanitizers take several times as long
@@ -27,13 +27,13 @@ constexpr const char* kMaterial = R"({{"name":"m{}","model":"lambert"}})";
 
 class Growth : public testing::Test {
 protected:
-    /// Seconds of the processor that `action` takes: other programs do not count.
+    /// Expects `action` to take at most kSeconds of CPU time, which excludes other programs.
     static void expectSeconds(const std::function<void()>& action) {
         const std::clock_t start = std::clock();
         action();
         EXPECT_LT(double(std::clock() - start) / CLOCKS_PER_SEC, kSeconds);
     }
-    /// A scene of triangles with these names, to which these overrides give a material.
+    /// Writes a scene of named triangles and of overrides that give matching ones a material.
     std::filesystem::path sceneOfNames(int count, const std::function<std::string(int)>& nameOf,
                                        const std::vector<std::string>& patterns) const {
         std::string text(kThreeVertices);
@@ -48,19 +48,19 @@ protected:
                                                  }) +
                                           "]}");
     }
-    /// A glTF file of so many nodes, `members` before them.
+    /// Expects a glTF file of `count` nodes, after `members`, to load in time.
     void expectNodesInSeconds(const std::string& members, int count,
                               const std::function<std::string(int)>& node) const {
         const std::filesystem::path file = folder.write("m.gltf", R"({"asset":{"version":"2.0"},)" + members +
                                                                       R"(,"nodes":[)" + listOf(count, node) + "]}");
         expectSeconds([&] { EXPECT_EQ(underLedger(importGltf, file).nodes.size(), std::size_t(count)); });
     }
-    /// Every other node with a camera, all of one name.
+    /// Every other node has a camera; all cameras share a name.
     void expectCamerasInSeconds(int count) const {
         expectNodesInSeconds(R"("cameras":[{"name":"c","type":"perspective","perspective":{"yfov":1,"znear":1}}])",
                              count, [](int i) { return i % 2 == 0 ? "{}" : R"({"camera":0})"; });
     }
-    /// Nodes that all show the one mesh.
+    /// All nodes show the same mesh.
     void expectShownInSeconds(const std::string& mesh, int count) const {
         expectNodesInSeconds(R"("meshes":[)" + mesh + "]", count, [](int) { return R"({"mesh":0})"; });
     }
@@ -160,7 +160,7 @@ TEST_F(Growth, anErrorAboutANameOfAHundredThousandTakesSeconds) {
 }
 
 TEST_F(Growth, polygonsThatTakeLongToCutAreCutAsIfConvex) {
-    // All corners but one lie in one cell of the grid, where each is looked at for each ear.
+    // All corners but one lie in one cell of the grid, so every ear tests each of them.
     constexpr int kCorners = 40'000;
     std::string text = "v 1e6 1e6 0\n", face = "f 1";
     for (int i = 0; i < kCorners; ++i) {

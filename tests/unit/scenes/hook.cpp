@@ -105,7 +105,7 @@ std::string bodied(std::string_view statements, std::string_view before = "") {
     return fmt::format("{}{}{}}}\n", before, kBody, statements);
 }
 
-/// Each would crash a driver, or take it minutes and gigabytes.
+/// Each text would crash a driver, or cost it minutes and gigabytes.
 TEST(Hook, whatDriversBreakOnIsRefusedAtOnceWithItsLine) {
     const std::string doubling = chained(1, 24, "#define m{0} m{1} + m{1}\n"),
                       fullStop = "\nsurface.color = vec3(x);\n";

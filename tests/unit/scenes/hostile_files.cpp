@@ -20,7 +20,7 @@ namespace {
 using namespace test;
 using gltf::test::Builder;
 
-/// What a load of the file is refused with under a limit of memory.
+/// Returns the error of loading a file under a memory limit.
 template <typename Read>
 std::string errorUnder(const Read& read, const std::filesystem::path& file,
                        std::optional<std::uint64_t> limitBytes = {}) {
@@ -88,7 +88,7 @@ TEST(Memory, instancesAreCharged) {
     EXPECT_THAT(errorUnder(importGltf, file, 24 * kMiB), HasSubstr("m.gltf: /nodes/"));
 }
 
-/// A PNG of 8192 x 8192 texels of one bit, all 0, of which nothing but the header is ever read.
+/// A PNG of 8192 x 8192 texels of one bit, all 0; only its header is ever read.
 std::string pictureBomb() {
     return kPngBegin + pngChunk("IHDR", std::string("\0\0\x20\0\0\0\x20\0\x01\0\0\0\0", 13)) +
            std::string("\0\0\x10\0IDAT", 8) + std::string(4096, '\0');
@@ -102,7 +102,7 @@ TEST(Memory, picturesAreChargedFromTheirHeader) {
 }
 
 TEST(Memory, aModelOfAnyNumberOfPicturesThatCannotBeReadIsRefusedAfterSomeOfThem) {
-    constexpr int kImages = 20; // each claims 256 MiB, and what it is read from comes on top
+    constexpr int kImages = 20; // each claims 256 MiB, and its file adds to that
     Builder builder;
     builder.folder.write("bomb.png", pictureBomb());
     builder.attribute("TEXCOORD_0", "VEC2", {0, 0, 1, 0, 0, 1});
@@ -167,7 +167,7 @@ TEST(Memory, claimedSizesAreCheckedBeforeReadersAllocate) {
                 HasSubstr("a.exr: the picture has 4294967296x4294967296 texels"));
 }
 
-/// The refusal of an EXR whose first attribute is this, after the file's name.
+/// Returns the error of an EXR with this first attribute, without the file's name.
 std::string refusalOfExr(const std::string& type, const std::string& sizeAndValue) {
     const TempFolder folder;
     const std::string exr = std::string("\x76\x2f\x31\x01\x02\0\0\0", 8) + "owner" + '\0' + type + '\0' + sizeAndValue;
@@ -188,7 +188,7 @@ TEST(Memory, aValueOfAnExrHeaderIsNotReservedUnlessTheFileHoldsIt) {
                  // Allocations that the reader makes without checking the size would hide the later ones.
                  {"box2i", eight + "abcdefgh", "claims 8 bytes and has 16"},
                  {"chlist", std::string("\x02\0\0\0\0abcdefgh", 13), "has 2 bytes: its list of channels ends earlier"},
-                 // OpenEXR reads on behind a list without an end, where an attribute may claim anything.
+                 // OpenEXR reads past a list without an end, where an attribute may claim anything.
                  {"chlist", std::string("\x12\0\0\0R\0", 6) + std::string(16, '\1'),
                   "has 18 bytes: its list of channels has no end"},
                  {"chlist", std::string("\x06\0\0\0R\0\1\1\1\1", 10), "has 6 bytes: its list of channels has no end"},
@@ -201,7 +201,7 @@ TEST(Memory, aValueOfAnExrHeaderIsNotReservedUnlessTheFileHoldsIt) {
 TEST(Memory, aFileStaysChargedForItsRemainingMemory) {
     const SceneFolder folder;
     LoadLedger ledger(64 * kMiB);
-    for (int i = 0; i < 1000; ++i) { // by far more in all than what one may take
+    for (int i = 0; i < 1000; ++i) { // far more in total than one may take
         const std::uint64_t before = ledger.usedBytes();
         const Scene scene = importObj(folder.path() / "models/bust.obj", ledger);
         ASSERT_EQ(ledger.usedBytes() - before, bytesOf(scene));
@@ -260,7 +260,7 @@ TEST(Memory, theOriginOfASceneNeverTakesMoreThanADocumentAtATime) {
 }
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr bool kHeapIsCounted = false; // mallinfo2() knows nothing of the sanitizer's heap
+constexpr bool kHeapIsCounted = false; // mallinfo2() does not cover the sanitizer's heap
 #else
 constexpr bool kHeapIsCounted = true;
 #endif
@@ -279,7 +279,7 @@ TEST(Memory, aParsedDocumentNeverTakesMoreThanItIsChargedFor) {
         const std::size_t before = heapBytes();
         const nlohmann::json document = nlohmann::json::parse(text);
         EXPECT_LE(heapBytes() - before, parsedJsonBytes(text)) << element;
-        // Before an array grows, half of it is copied.
+        // A growing array also holds its old storage, half as large, during the copy.
         EXPECT_GE(parsedJsonBytes(text), kCount * 3 * sizeof(nlohmann::json)) << element;
     }
 }
@@ -287,10 +287,10 @@ TEST(Memory, aParsedDocumentNeverTakesMoreThanItIsChargedFor) {
 TEST(Memory, whatIsKeptOfAGltfFileNeverTakesMoreThanItIsChargedFor) {
     if (!kHeapIsCounted) GTEST_SKIP() << "the heap is the sanitizer's";
     struct Case {
-        const char* before; ///< many elements
+        const char* before; ///< before the repeated elements
         const char* element;
         const char* after;
-        const char* node = "0"; ///< what uses each, with @ for its number; else none
+        const char* node = "0"; ///< refers to each element by its number, @; else none
     };
     constexpr Case kCases[] = {
         {R"("scenes": [)", R"({"nodes": [0]})", "]", R"({"children": [0]})"},
@@ -339,9 +339,9 @@ TEST(Memory, whatIsKeptOfAGltfFileNeverTakesMoreThanItIsChargedFor) {
         Repairs repairs(false);
         const gltf::Document document = gltf::loadDocument(file, ledger, repairs);
         const std::size_t keptBytes = heapBytes() - heapBefore;
-        // Beside it, the file is charged, its text, and the parsed JSON, all of which are gone.
+        // The ledger also counts the file, its text and the parsed JSON, all of which are freed.
         const std::uint64_t chargedBytes = ledger.usedBytes() - 2 * text.size() - parsedJsonBytes(text);
-        constexpr std::size_t kNamesBytes = 4096; // of the file
+        constexpr std::size_t kNamesBytes = 4096; // the file's names
         EXPECT_GT(keptBytes, 20'000u) << test.before;
         EXPECT_LE(keptBytes, chargedBytes + kNamesBytes) << test.before << test.element;
     }

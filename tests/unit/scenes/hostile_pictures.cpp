@@ -1,4 +1,4 @@
-// Pictures that are broken, cut short or ask for more memory than their files are worth.
+// Images that are broken, truncated or claim more memory than their files justify.
 #include <algorithm>
 
 #include "scenes/import/PictureCodecs.h"
@@ -12,7 +12,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 TEST(HostilePicture, nothingIsReadBeforeTheBeginningOfAnExr) {
-    // Its table says that a line begins at 2^64 - 1, which OpenImageIO takes for -1.
+    // Its table puts a line at 2^64 - 1, which OpenImageIO reads as -1.
     EXPECT_THAT(refusalOf(bytesOfSeed("picture/line_offset.exr"), "a"),
                 HasSubstr("Unexpected end of file); save it again"));
 }
@@ -36,7 +36,7 @@ TEST(HostilePicture, aReaderThatOpenImageIoLacksIsNoBrokenPicture) {
 TEST(HostilePicture, aProgressiveJpegIsChargedBeforeItsReaderReservesIt) {
     std::string jpeg = bytesOfSeed("picture/progressive.jpg"); // 4000 x 4000 texels, none of which it holds
     EXPECT_LT(growthOf([&] { EXPECT_THAT(refusalOf(jpeg, "a"), HasSubstr("claims 4000x4000 texels")); }), 8 * kMiB);
-    jpeg.resize(4096); // what may hold them
+    jpeg.resize(4096); // enough bytes to hold them
     EXPECT_LT(growthOf([&] {
                   EXPECT_THAT(refusalOf(jpeg, "a", 64 * kMiB),
                               HasSubstr("a: the picture of 4000x4000 texels: asks for 91.6 MiB"));
@@ -81,7 +81,7 @@ TEST(HostilePicture, valuesOfTagsThatDecodingDoesNotNeedAreNotCopied) {
     std::vector<TiffEntry> entries = oneTexel(), elsewhere;
     for (int i = 0; i < kTags; ++i) entries.push_back({40000 + i, kByte, kMiB, 0, true});
     const std::string inFirst = tiffOf(entries, shared);
-    // The directory of Exif stands behind the texel, and its value behind that.
+    // The Exif directory follows the texel, and its value follows the directory.
     entries = oneTexel();
     entries.push_back({kExif, kLong, 1, 1, true});
     const auto value = std::uint32_t(8 + 2 + 12 * entries.size() + 4 + 1 + 2 + 12 * kTags + 4);
@@ -103,7 +103,7 @@ TEST(HostilePicture, aTiffIsNotReadWhoseDirectoryIsNotInTheFile) {
     }
 }
 
-/// 16 x 16 grey texels in a tile that claims these sides, by numbers of this type.
+/// 16 x 16 grey texels in a tile with these claimed sides, stored as numbers of this type.
 std::string tiledTiff(int type, std::uint32_t tileSide, ByteOrder order, std::uint32_t side = 16) {
     const std::string rest = type == kLong8 ? numberText(tileSide, 4, order) + std::string(4, '\0') : std::string();
     const TiffEntry width{322, type, 1, type == kLong8 ? 0 : tileSide, type == kLong8};
@@ -138,7 +138,7 @@ TEST(HostilePicture, tilesBeyondAPictureDoNotCountAsItsSide) {
     const auto refusalOfSide = [](std::uint32_t side) {
         return refusalOf(tiledTiff(kLong, 256, ByteOrder::Little, side), "a", 64 * kMiB);
     };
-    // 64 tiles of 256 would be 16384.
+    // 64 tiles of 256 cover 16384.
     EXPECT_THAT(refusalOfSide(16383), HasSubstr("a: the picture of 16383x16383 texels: asks for 1.2 GiB"));
     EXPECT_THAT(refusalOfSide(16385), HasSubstr("a: the picture has 16385x16385 texels; at most"));
 }

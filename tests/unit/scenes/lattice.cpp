@@ -65,7 +65,7 @@ TEST(Lattice, sphereVerticesLieOnTheSphereFromItsPole) {
     for (const Mesh& mesh : scene.meshes) {
         if (mesh.name != "sphere") continue;
         EXPECT_EQ(mesh.positionsOS.front(), glm::vec3(0.0f, 0.45f, 0.0f));
-        // Half an ulp of 0.45 an axis.
+        // Half an ulp of 0.45 per axis.
         for (const glm::vec3& p : mesh.positionsOS) EXPECT_NEAR(glm::length(glm::dvec3(p)), 0.45, 1e-7);
         const glm::vec3 slice0 = mesh.positionsOS[12 * 33]; // on the equator
         EXPECT_NEAR(slice0.x, 0.45f, 1e-7);

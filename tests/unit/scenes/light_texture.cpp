@@ -1,4 +1,4 @@
-// Pictures of lights: read, shared, written back.
+// Images of lights: reading, sharing and writing.
 #include "scenes/LightTexture.h"
 
 #include <limits>

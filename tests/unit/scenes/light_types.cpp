@@ -1,4 +1,4 @@
-// The table of light types and what follows from it.
+// The table of light types, and behaviour that follows from it.
 #include <cctype>
 #include <set>
 
@@ -15,7 +15,7 @@ namespace {
 
 using LightTypes = test::SceneFiles;
 
-/// Keys of a light of a type: all that its row gives it, each parameter at `share` of what scene files may say.
+/// Keys of a light type: all keys of its row, with each parameter at the fraction `share` of its range in scene files.
 std::string keysOf(const LightTypeInfo& type, float share) {
     std::string keys = fmt::format(R"("type": "{}", "color": [1, 0.5, 0.25], "intensity": 2)", type.name);
     if (type.hasPosition()) keys += R"(, "position": [1, 2, 3], "falloff": {"type": "inverse_square", "range": 4})";

@@ -193,7 +193,7 @@ TEST_F(LoadScene, filesKeepTheirFirstLights) {
     EXPECT_EQ(scene.lights[0].name, "a");
 }
 
-/// The scan is third-party and found only where TESSERA_ASSETS says; a triangle stands in for it.
+/// The third-party scan is found only in the folder of TESSERA_ASSETS; here a triangle replaces it.
 TEST_F(LoadScene, headUsesTheScanExactlyWhenAssetsHoldIt) {
     writeScan(folder);
     const tessera::test::AssetsFolder assets(folder.path().c_str());
@@ -205,7 +205,7 @@ TEST_F(LoadScene, headUsesTheScanExactlyWhenAssetsHoldIt) {
     EXPECT_EQ(scan.images.size(), 3u);
     const Scene bust = loadScene("head", loading(&LoadOptions::useAssets, false));
     EXPECT_TRUE(meshCalledBust(bust));
-    // Both stand on the plinth and reach equally high; single precision of half a metre.
+    // Both stand on the plinth and have the same height; single precision of half a metre.
     EXPECT_EQ(scan.cameras.size(), bust.cameras.size());
     EXPECT_NEAR(worldBounds(scan).max.y, worldBounds(bust).max.y, 1e-6);
 }

@@ -1,4 +1,4 @@
-// Published profiles, held to print.
+// Named diffusion profiles compared with published values.
 #include "scenes/Subsurface.h"
 
 #include <cmath>
@@ -44,7 +44,7 @@ double dipoleOfMarble(int channel, double millimetres) {
     return kScattering[channel] / extinction * sum / (4.0 * std::numbers::pi);
 }
 
-/// sqrt(integral r (R - dipole)^2 dr / integral r dipole^2 dr), with the dipole divided by its own integral.
+/// Returns sqrt(integral r (R - dipole)^2 dr / integral r dipole^2 dr), with the dipole divided by its integral.
 double errorAgainstDipole(const scenes::DiffusionProfile& profile, int channel) {
     constexpr int kRings = 900;
     constexpr double kGrowth = 1.012;
@@ -80,7 +80,7 @@ TEST(NamedProfiles, skinIsAsPrinted) {
     EXPECT_EQ(scenes::profileOf({}), scenes::namedProfiles()[0].profile) << "what a material without one has";
 }
 
-/// What tools/fit_profile.py marble prints: variances of one ratio, and weights to three digits.
+/// Output of `tools/fit_profile.py marble`: variances of a constant ratio, and weights to three digits.
 TEST(NamedProfiles, marbleIsAsFitted) {
     ASSERT_EQ(scenes::namedProfiles()[1].name, "marble");
     expectPrinted(scenes::namedProfiles()[1].profile,
@@ -103,7 +103,7 @@ TEST(NamedProfiles, marbleIsNearTheDipole) {
     }
 }
 
-/// Wherever they come from: all consumers divide by the sums, which would hide a weight that is wrong.
+/// All consumers divide by the sums, which would hide a wrong weight.
 TEST(NamedProfiles, weightsSumToOneAsPrinted) {
     for (const scenes::NamedProfile& named : scenes::namedProfiles()) {
         EXPECT_EQ(scenes::profileProblem(named.profile), "") << named.name;

@@ -1,5 +1,5 @@
-// What a picture's file says besides its texels: orientation, software and transfer function are read, descriptions and
-// texts are neither read nor kept.
+// Metadata of image files: orientation, software and transfer function are read; descriptions and texts are neither
+// read nor kept.
 #include <algorithm>
 
 #include "scenes/import/PictureCodecs.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-/// Elements within elements, which OpenImageIO follows by recursion.
+/// Nested elements, which OpenImageIO follows by recursion.
 std::string nestedXmp(int levels) {
     std::string xmp = "<rdf:Description>";
     for (int i = 0; i < levels; ++i) xmp += "<a>";
@@ -55,7 +55,7 @@ PictureTags tagsOf(const std::string& bytes, std::string_view formatName) {
     return format->decode({std::as_bytes(std::span(bytes)), "a", *format, ledger}).tags;
 }
 
-/// A description that claims an orientation, which only Exif's and TIFF's own tags tell.
+/// A description with an orientation, which only tags of Exif and TIFF may set.
 std::string xmpOfOrientation(int levels) {
     std::string xmp = "<rdf:Description tiff:Orientation='6'>";
     for (int i = 0; i < levels; ++i) xmp += "<a>";
@@ -74,7 +74,7 @@ TEST(PictureMetadata, theDescriptionOfAJpegIsNotRead) {
 TEST(PictureMetadata, theOrientationOfAJpegIsRead) {
     for (const ByteOrder order : {ByteOrder::Little, ByteOrder::Big})
         EXPECT_EQ(tagsOf(jpegWith(segmentOf(0xe1, exifOf(6, "brushes", order))), "jpeg").orientation, 6);
-    // Of what is cut short nothing is read.
+    // Truncated segments are not read.
     EXPECT_EQ(tagsOf(jpegWith(segmentOf(0xe1, exifOf(6, "", ByteOrder::Big).substr(0, 20))), "jpeg").orientation, 1);
     EXPECT_EQ(tagsOf(jpegWith("\xff\xe1" + std::string("\0\0", 2)), "jpeg").orientation, 1);
 }
@@ -91,7 +91,7 @@ TEST(PictureMetadata, orientationAndSoftwareOfATiffAreRead) {
     EXPECT_EQ(tags.software, "brushes");
 }
 
-/// The seed, lossless, with one more chunk that its flags tell of.
+/// The seed, lossless, with one more chunk that its flags announce.
 std::string webpWith(int flag, const std::string& name, const std::string& value) {
     const auto chunk = [](const std::string& chunkName, const std::string& bytes) {
         return chunkName + numberText(std::uint32_t(bytes.size()), 4, ByteOrder::Little) + bytes +

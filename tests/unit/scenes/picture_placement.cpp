@@ -1,4 +1,4 @@
-// Where a file's texels belong in its image, and by what they were multiplied.
+// Placement of a file's texels in its image, and factors by which they were multiplied.
 #include <cmath>
 #include <cstring>
 
@@ -11,14 +11,14 @@ namespace {
 
 using namespace test;
 
-/// A Radiance picture of grey texels, the powers of 2 with these exponents.
+/// A Radiance image of grey texels, the powers of 2 with these exponents.
 std::string hdrOf(const std::string& resolution, const std::vector<int>& exponents, const std::string& lines = "") {
     std::string file = "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n" + resolution + "\n";
     for (const int exponent : exponents) file += std::string(3, '\x80') + char(129 + exponent);
     return file;
 }
 
-/// OpenImageIO adds half a step, 2^-8.
+/// Exponents of the red values, without the half step, 2^-8, that OpenImageIO adds.
 std::vector<int> exponentsOf(const Image& image) {
     std::vector<int> exponents;
     const std::vector<float> texels = storedTexels<float>(image);
@@ -26,7 +26,7 @@ std::vector<int> exponentsOf(const Image& image) {
     return exponents;
 }
 
-/// Source: Ward, "Radiance File Formats": the first axis is that across scanlines, and Y points up.
+/// Source: Ward, "Radiance File Formats": the first axis crosses scanlines, and Y points up.
 TEST(PicturePlacement, theEightOrientationsOfRadiancePicturesAreTurnedUpright) {
     const struct {
         const char* resolution;
@@ -67,7 +67,7 @@ TEST(PicturePlacement, anExposureThatIsNoFactorIsTakenAsOne) {
 }
 
 TEST(PicturePlacement, radianceAsXyzBecomesRedGreenAndBlue) {
-    // X = Y = Z = 1 but for half a step; IEC 61966-2-1's rows sum up to these.
+    // X = Y = Z = 1 up to half a step; these are the sums of the rows of IEC 61966-2-1's matrix.
     std::string file = hdrOf("-Y 1 +X 1", {0});
     file.replace(file.find("rgbe"), 4, "xyze");
     const std::vector<float> texels = storedTexels<float>(decoded(file, "sky.hdr"));
@@ -86,7 +86,7 @@ TEST(PicturePlacement, aRadianceHeaderWithoutFormatOrWithLongLinesIsRead) {
         EXPECT_THAT(refusalOf(hdrOf(resolution, {0, 1}), "sky.hdr"), HasSubstr("ends without a resolution"));
 }
 
-/// 3x2 texels 1 to 6 with this window displayed.
+/// An EXR of 3x2 texels, 1 to 6, with this display window.
 std::string exrIn(std::array<int, 4> displayed, float alpha) {
     std::vector<float> texels;
     for (int i = 1; i <= 6; ++i) texels.insert(texels.end(), {float(i), 0.0f, 0.0f, alpha});
@@ -124,7 +124,7 @@ TEST(PicturePlacement, texelsOfAnExrLieWhereItsDisplayWindowShowsThem) {
 }
 
 TEST(PicturePlacement, environmentsAndPicturesToCompareAreTurnedByExifButTexturesAreNot) {
-    // The seed's rows differ; orientation 3 turns it around.
+    // The seed's rows differ; orientation 3 rotates it by 180 degrees.
     const TempFolder folder;
     const std::string exif = std::string("Exif\0\0", 6) + tiffOf({{274, kShort, 1, 3}}, "");
     std::string jpeg = bytesOfSeed("picture/small.jpg");

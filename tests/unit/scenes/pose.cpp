@@ -16,7 +16,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// Of the first instance that node `node` draws.
+/// World positions of the first instance that node `node` draws.
 std::vector<glm::dvec3> positionsWS(const Scene& scene, std::size_t node) {
     const glm::dmat4 worldFromNode = worldFromNodes(scene)[node];
     const Mesh& mesh = scene.meshes[std::size_t(scene.nodes[node].instances.at(0).mesh)];
@@ -43,7 +43,7 @@ TEST(Poses, jointsAndTargetsMoveVerticesAsTheirWeightsSay) {
     const std::vector<glm::dvec3> positions = positionsWS(scene, kSkinned);
     expectAt(positions[0], {0.0, 0.0, 0.0});
     expectAt(positions[1], {1.0, 1.0, 0.0}); // 1 beyond the knee, turned
-    // (0, 4, 1) of the hip, and turned about (1, 0) it is at (-3, -1, 1).
+    // Halfway between (0, 4, 1), by the hip, and (-3, -1, 1), by the knee turned about (1, 0).
     expectAt(positions[2], {-1.5, 1.5, 1.0});
     EXPECT_NO_THROW(checkScene(scene));
 }
@@ -89,7 +89,7 @@ TEST(Poses, normalsStandOnTheDeformedSurface) {
         scene.nodes[1].parentFromNode[0][0] = 3.0 * mirror; // sheared by the knee below
         scene.rig.shapes[0].weights = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
         scene.rig.shapes[0].joints = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
-        scene.rig.shapes[0].rest.positionsOS[2].z = 1.0f; // aslant
+        scene.rig.shapes[0].rest.positionsOS[2].z = 1.0f; // oblique
         const auto normalOf = [](const std::vector<glm::dvec3>& p) {
             return glm::normalize(glm::cross(p[1] - p[0], p[2] - p[0]));
         };
@@ -99,7 +99,7 @@ TEST(Poses, normalsStandOnTheDeformedSurface) {
         playClip(scene, "none");
         poseScene(scene, 0.0);
         const glm::dmat3 worldFromMesh(worldFromNodes(scene)[kSkinned]);
-        // Drawn, a mirrored node turns the winding, and its normals by the inverse transpose.
+        // When drawn, a mirrored node flips the winding, and its normals take the inverse transpose.
         const double side = glm::determinant(worldFromMesh) < 0.0 ? -1.0 : 1.0;
         EXPECT_EQ(side, mirror);
         const glm::dvec3 normalWS =
@@ -108,7 +108,7 @@ TEST(Poses, normalsStandOnTheDeformedSurface) {
     }
 }
 
-/// They lie in the surface, so a joint that stretches it turns them as it does the surface, and not as normals.
+/// Tangents lie in the surface, so a stretching joint transforms them like the surface and not like normals.
 TEST(Poses, tangentsLieInTheDeformedSurface) {
     Scene scene = riggedScene();
     const float half = std::sqrt(0.5f);
@@ -139,7 +139,7 @@ TEST(Poses, verticesWithoutWeightAreMirroredWithTheirNode) {
         poseScene(scene, 0.0);
         EXPECT_EQ(glm::determinant(glm::dmat3(worldFromNodes(scene)[kSkinned])), mirror);
         expectAt(positionsWS(scene, kSkinned)[1], {2.0 * mirror, 0.0, 0.0});
-        // A third of the mesh follows its node, so the other two say how it is seen.
+        // One vertex of three follows the node, so the other two decide the facing.
         scene.rig.shapes[0].weights = {1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
         poseScene(scene, 0.0);
         EXPECT_EQ(glm::determinant(glm::dmat3(worldFromNodes(scene)[kSkinned])), 1.0);
@@ -179,11 +179,11 @@ TEST(Poses, aSkinOfManyJointsIsComputedOnceForAllItsMeshes) {
     const auto start = std::chrono::steady_clock::now();
     poseScene(scene, 1.0);
     expectAt(positionsWS(scene, kSkinned)[1], {1.0, 1.0, 0.0});
-    // Some 50 ms, and half a minute where every mesh asks for all joints.
+    // About 50 ms; half a minute if every mesh evaluated all joints.
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5.0);
 }
 
-// ---- What moves along ----------------------------------------------------------------------------------------------
+// ---- Moving lights, cameras and numbers ----------------------------------------------------------------------------
 
 TEST(Poses, lightsAndCamerasMoveWithTheirNodeAndNumbersWithTheClip) {
     Scene scene = riggedScene();
@@ -195,7 +195,7 @@ TEST(Poses, lightsAndCamerasMoveWithTheirNodeAndNumbersWithTheClip) {
     expectAt(glm::dvec3(scene.cameras[0].worldFromCamera[3]), {1.0, 0.0, 0.0});
 }
 
-/// What is not among them is not made anew for each picture.
+/// Other parts are not rebuilt for each image.
 TEST(Poses, theMovingPartsAreThoseThatPlayingClipsChange) {
     const auto partsOf = [](const Scene& scene) {
         const MovingParts parts = movingParts(scene);
@@ -203,7 +203,7 @@ TEST(Poses, theMovingPartsAreThoseThatPlayingClipsChange) {
     };
     Scene scene = riggedScene();
     Clip& clip = scene.rig.clips[0];
-    const std::vector<AnimationChannel> all = clip.channels; // of a joint, a weight and a light
+    const std::vector<AnimationChannel> all = clip.channels; // for a joint, a weight and a light
     EXPECT_EQ(partsOf(scene), "geometry ");
     clip.channels = {all[1]};
     EXPECT_EQ(partsOf(scene), "geometry ");
@@ -313,7 +313,7 @@ TEST(Poses, anIncludedRigMovesBelowItsRoot) {
     EXPECT_NO_THROW(checkScene(whole));
 }
 
-/// riggedScene(), whose clip narrows the lens too.
+/// riggedScene() whose clip also narrows the field of view.
 Scene zoomingScene() {
     Scene scene = riggedScene();
     scene.rig.numbers.push_back({AnimatedProperty::CameraFovY, 0});
@@ -349,7 +349,7 @@ TEST(Poses, splinesThatGoPastTheirKeysLeaveALensThatCanBe) {
 
 TEST(Poses, aFactorMultipliesAndIsOneNumber) {
     Scene scene = riggedScene();
-    scene.rig.clips[0].channels[2].factor = 1; // from 0 to 1, of an intensity from 1 to 2
+    scene.rig.clips[0].channels[2].factor = 1; // rises from 0 to 1; the intensity from 1 to 2
     EXPECT_NO_THROW(checkScene(scene));
     poseScene(scene, 0.5);
     EXPECT_FLOAT_EQ(scene.lights[0].intensity, 0.75f);
@@ -385,7 +385,7 @@ TEST(Pose, theLinksOfLightsThatStayOutlastThoseThatAreDeleted) {
     rig.numbers.resize(3);
     rig.numbers[0].element = 4;
     rig.numbers[1].element = 1;
-    rig.numbers[2].element = kNone; // it went before
+    rig.numbers[2].element = kNone; // removed before
     const std::vector<std::size_t> deleted{1, 2};
     const LightLinks links = linksAfterDeleting(rig, deleted);
     ASSERT_EQ(links.carried.size(), 3u);
@@ -395,7 +395,7 @@ TEST(Pose, theLinksOfLightsThatStayOutlastThoseThatAreDeleted) {
         EXPECT_EQ(carried.node, node);
     }
     EXPECT_EQ(links.numbers, (std::vector<int>{2, kNone, kNone}));
-    // Neighbours that go are as many that are replaced by none.
+    // Deleting neighbours is the same as replacing them by none.
     EXPECT_EQ(linksAfterReplacing(rig, 1, 2, 0).numbers, links.numbers);
 }
 

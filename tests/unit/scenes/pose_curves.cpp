@@ -1,4 +1,4 @@
-// Numbers between the keys of a clip.
+// Interpolation between the keys of a clip.
 #include <chrono>
 #include <cmath>
 #include <numbers>

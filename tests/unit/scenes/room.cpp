@@ -12,7 +12,7 @@
 namespace tessera::scenes::builtin {
 namespace {
 
-/// The nearest triangle a ray hits from its front, by brute force on the scene's own geometry.
+/// The nearest front-facing triangle hit by a ray, by brute force over the scene's geometry.
 struct Hit {
     double along = kInfinity;
     int material = kNone;
@@ -78,7 +78,7 @@ TEST(Room, radianceIsTheInverseSquareTimesTheCosine) {
     // On the far wall, 3 m behind and 1.5 m aside: d^2 = 11.25 m^2, cos = 3 / d; the model divides by pi.
     const glm::dvec3 far = roomRadiance({1.5, 1.5, -3.0}, {0.0, 0.0, 1.0}, RoomMaterial::FarWall);
     EXPECT_DOUBLE_EQ(far.z, 0.8125 / std::numbers::pi * 1.5 * 3.0 / std::pow(11.25, 1.5));
-    // Turned away from the lamp only the emission is left; the unlit colour does not care.
+    // Facing away from the lamp, only emission is left; the unlit colour is unaffected.
     EXPECT_EQ(roomRadiance({1.0, 1.5, 0.0}, {1.0, 0.0, 0.0}, RoomMaterial::Panel), glm::dvec3(0.5, 0.375, 0.125));
     EXPECT_EQ(roomRadiance({1.0, 1.5, 0.0}, {1.0, 0.0, 0.0}, RoomMaterial::Floor), glm::dvec3(0.0));
     EXPECT_EQ(roomRadiance({-0.5, 1.75, -2.99}, {0.0, 0.0, 1.0}, RoomMaterial::Sign), glm::dvec3(0.25, 0.5, 0.75));

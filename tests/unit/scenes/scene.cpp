@@ -12,7 +12,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// Double rounding over a handful of operations on numbers near 10.
+/// Rounding of a handful of double operations on numbers near 10.
 constexpr double kRounding = 1e-14;
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
@@ -82,7 +82,7 @@ TEST(LightAnimation, wobbleAddsAmplitudeTimesTheSineOfTheTime) {
 
 TEST(LightAnimation, pathRunsAtConstantSpeedAndCloses) {
     Light light = animatedLight(LightAnimationKind::Path);
-    // Sides of 3, 4 and 5 m: 3 m a second.
+    // Sides of 3, 4 and 5 m: 3 m per second.
     light.animation->pointsWS = {{0.0, 0.0, 0.0}, {3.0, 0.0, 0.0}, {3.0, 4.0, 0.0}};
     expectNear(lightAtTime(light, 0.5).positionWS, {1.5, 0.0, 0.0}, kRounding);
     expectNear(lightAtTime(light, 2.0).positionWS, {3.0, 3.0, 0.0}, kRounding);
@@ -161,7 +161,7 @@ TEST(LightAnimation, openPathsGoThereAndBackAtConstantSpeed) {
     expectNear(lightAtTime(light, 13.0).positionWS, {1.0, 0.0, 0.0}, kRounding);
 }
 
-/// A spot light on a path; a period of 1 s, so that seconds are shares of it.
+/// A spot light on a path; a period of 1 s, so that seconds are fractions of it.
 Light lightOnPath(std::vector<glm::dvec3> pointsWS, PathLine line) {
     Light light = animatedLight(LightAnimationKind::Path);
     light.type = LightType::Spot;
@@ -172,15 +172,15 @@ Light lightOnPath(std::vector<glm::dvec3> pointsWS, PathLine line) {
 }
 
 TEST(LightAnimation, curvesRoundASquareAreThoseOfTheirClosedForm) {
-    // Between equally distant points slopes are half the way between the neighbours: here (1, -1) and (1, 1), and the
-    // middle of the lower side is (0, -1) + ((1, -1) - (1, 1)) / 8.
+    // For equidistant points, a slope is half the difference of the neighbours: here (1, -1) and (1, 1). The middle of
+    // the lower side is (0, -1) + ((1, -1) - (1, 1)) / 8.
     const Light light =
         lightOnPath({{-1.0, -1.0, 0.0}, {1.0, -1.0, 0.0}, {1.0, 1.0, 0.0}, {-1.0, 1.0, 0.0}}, PathLine::CatmullRom);
     for (int i = 0; i < 4; ++i) // all sides are of one length
         expectNear(lightAtTime(light, 0.25 * i).positionWS, light.animation->pointsWS[std::size_t(i)], 1e-12);
     expectNear(lightAtTime(light, 0.125).positionWS, {0.0, -1.25, 0.0}, 1e-12);
     expectNear(lightAtTime(light, 0.625).positionWS, {0.0, 1.25, 0.0}, 1e-12);
-    // Constant speed, but for chords of a 64th of a side: steps of equal times are equally long.
+    // Constant speed, up to chords of a 64th of a side: equal time steps are equally long.
     double least = 1e9, most = 0.0;
     for (int i = 0; i < 1000; ++i) {
         const double metres =
@@ -192,7 +192,7 @@ TEST(LightAnimation, curvesRoundASquareAreThoseOfTheirClosedForm) {
 }
 
 TEST(LightAnimation, curvesThroughPointsOnALineAreTheLine) {
-    // Distances of 1, 4 and 9 m: by roots of distances slopes differ, and the place still never leaves the line.
+    // Distances of 1, 4 and 9 m: slopes differ with the roots of the distances, but positions stay on the line.
     Light light =
         lightOnPath({{0.0, 2.0, 0.0}, {1.0, 2.0, 0.0}, {5.0, 2.0, 0.0}, {14.0, 2.0, 0.0}}, PathLine::CatmullRom);
     light.animation->isOpen = true;
@@ -276,7 +276,7 @@ TEST(LightAnimation, timesFarBeyondThePeriodLeaveLightsInTheirPlace) {
 TEST(LightAnimation, flickerKeepsItsMeanAndItsBounds) {
     for (const int seed : {0, 1, 77}) {
         const LightFlicker flicker{.amplitude = 1.0, .frequencyHz = 4.0, .seed = seed};
-        constexpr int kSteps = 1024; // 16 a turn of the fastest part: sums of sines vanish but for rounding
+        constexpr int kSteps = 1024; // 16 per turn of the fastest part: sums of sines vanish up to rounding
         double sum = 0.0, least = 9.0, most = 0.0;
         for (int i = 0; i < kSteps; ++i) {
             const double factor = flickerAt(flicker, 16.0 * i / kSteps);
@@ -315,7 +315,7 @@ TEST(LightKeys, directionsTurnAlongGreatCirclesAtConstantSpeed) {
         const double angle = 0.5 * std::numbers::pi * share;
         expectNear(lightAtTime(light, 2.0 * share).directionWS, {std::cos(angle), -std::sin(angle), 0.0}, kRounding);
     }
-    light.keyframes[0].values[1] = {-1.0, 0.0, 0.0}; // any way, but with constant speed
+    light.keyframes[0].values[1] = {-1.0, 0.0, 0.0}; // turns in any plane, at constant speed
     for (const double share : {0.0, 0.25, 0.5, 1.0}) {
         const glm::dvec3 directionWS = lightAtTime(light, 2.0 * share).directionWS;
         EXPECT_NEAR(glm::length(directionWS), 1.0, kRounding);
@@ -333,7 +333,7 @@ TEST(LightKeys, splinesOfDirectionsStayOfUnitLength) {
     keys.inTangents = keys.outTangents = {glm::dvec3(0.0), glm::dvec3(0.0)};
     light.keyframes = {keys};
     expectNear(lightAtTime(light, 1.0).directionWS, glm::dvec3(1.0, 1.0, 0.0) * std::sqrt(0.5), kRounding);
-    // Without slopes, a quarter on is 1 - 3/16 + 2/64 = 27/32 of the one and 5/32 of the other.
+    // With zero slopes, the weights at a quarter are 1 - 3/16 + 2/64 = 27/32 and 5/32.
     expectNear(lightAtTime(light, 0.5).directionWS, glm::normalize(glm::dvec3(27.0, 5.0, 0.0)), kRounding);
     light.keyframes[0].values[1] = {-1.0, 0.0, 0.0};
     EXPECT_EQ(lightAtTime(light, 1.0).directionWS, glm::dvec3(1.0, 0.0, 0.0)) << "in the middle there is none";

@@ -25,8 +25,7 @@ double area(const Mesh& mesh) {
     return sum;
 }
 
-/// Six times the signed volume a closed mesh encloses is positive when its triangles face outwards (divergence
-/// theorem).
+/// Signed volume of a closed mesh, positive if its triangles face outwards (divergence theorem).
 double volume(const Mesh& mesh) {
     double sum = 0.0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -63,7 +62,7 @@ TEST(Shapes, latheOfAConeHasItsVolumeAndOutwardNormals) {
 }
 
 TEST(Shapes, archSweepsTheUpperHalfCircle) {
-    Mesh mesh; // a band of radius 2, seen from inside, 0.5 m wide
+    Mesh mesh; // a band of radius 2, facing inwards, 0.5 m wide
     appendArch(mesh, Profile({2.0, 0.5}).lineTo({2.0, 0.0}), {0.0, 1.0, 0.0}, 256);
     expectMeshRules(mesh);
     EXPECT_NEAR(area(mesh), 0.5 * 2.0 * pi, 1e-3);
@@ -134,7 +133,7 @@ TEST(Pictures, coloursAreStoredWithTheSrgbTransferFunction) {
 }
 
 TEST(Pictures, normalsOfASlopeLeanDownhill) {
-    // A saw tooth that rises by one texel's width a texel to the right.
+    // A saw tooth that rises by one texel's width per texel to the right.
     const Image image = normalsFromHeights("slope", 8, 0.01, [](int x, int) { return 0.01 * x; });
     std::uint16_t red = 0;
     std::memcpy(&red, image.texels.data() + 8 * (8 * 3 + 3), sizeof(red));

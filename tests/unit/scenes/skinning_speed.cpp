@@ -9,13 +9,13 @@
 #include "tests/support/Random.h"
 #include "validation/timing/TimeSamples.h"
 
-/// What a pose costs a vertex, beside what the machine needs to move its bytes.
+/// Cost of posing a vertex, relative to the machine's speed of copying its bytes.
 namespace tessera::scenes {
 namespace {
 
 constexpr std::size_t kSkinnedVertices = 1'000'000, kInfluencesOfEach = 4, kJointsOfSkin = 64;
 
-/// Places and normals are read and written, and a joint's number and weight are read for each influence.
+/// Positions and normals are read and written; a joint's number and weight are read for each influence.
 constexpr std::size_t kBytesOfVertex = 2 * 2 * sizeof(glm::vec3) + kInfluencesOfEach * (sizeof(int) + sizeof(float));
 
 template <typename Action>
@@ -33,7 +33,7 @@ TEST(SkinningSpeedSlow, aMillionVerticesOfFourJointsAreSkinnedAtAShareOfTheCopyS
         shape.rest.positionsOS.emplace_back(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
         shape.rest.normalsOS.emplace_back(0.0f, 0.0f, 1.0f);
         for (std::size_t i = 0; i < kInfluencesOfEach; ++i) {
-            // Of neighbours in the skin, as models have them.
+            // Neighbouring joints of the skin, as in models.
             shape.joints.push_back(std::uint32_t((vertex * kJointsOfSkin / kSkinnedVertices + i) % kJointsOfSkin));
             shape.weights.push_back(float(random.between(0.1, 1.0)));
         }
@@ -62,7 +62,7 @@ TEST(SkinningSpeedSlow, aMillionVerticesOfFourJointsAreSkinnedAtAShareOfTheCopyS
     fmt::print("skinning 10^6 vertices: {:.0f} ms, {:.2f} GB/s read and written; copies {:.1f} GB/s; share {:.3f}\n",
                1e3 * seconds, skinnedRate, copyRate, skinnedRate / copyRate);
 #ifndef __SANITIZE_ADDRESS__
-    // All cores deform vertices, in double precision, and one copies. Below this share most of the time goes elsewhere.
+    // All cores deform vertices in double precision; one copies. Below this ratio most time is spent elsewhere.
     EXPECT_GT(skinnedRate / copyRate, 0.005);
 #endif
 }

@@ -1,4 +1,4 @@
-// The built-in sky against its air's optical depths, paths traced through that air, and a published sky.
+// The built-in sky compared with its air's optical depths, paths traced through that air, and a published sky.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -17,7 +17,7 @@ double radiansOf(double degrees) {
     return degrees * std::numbers::pi / 180.0;
 }
 
-/// The map, and its sun: radiance over solid angle, in the middle of what is bright.
+/// The map, and its sun: irradiance and direction summed over the bright texels.
 class BuiltinSky : public testing::Test {
 protected:
     static void SetUpTestSuite() {
@@ -26,7 +26,7 @@ protected:
         height_ = map.height;
         texels_.resize(std::size_t(width_) * std::size_t(height_));
         std::memcpy(texels_.data(), map.texels.data(), map.texels.size());
-        constexpr float kBrighterThanSky = 10.0f; // a hundredth of the sun's disk shines in 600
+        constexpr float kBrighterThanSky = 10.0f; // a texel with a hundredth of the sun's disk has 600
         for (int y = 0; y < height_; ++y)
             for (int x = 0; x < width_; ++x) {
                 if (at(x, y).g < kBrighterThanSky) continue;
@@ -43,7 +43,7 @@ protected:
         sunIrradiance_ = toSun_ = glm::dvec3(0.0);
     }
 
-    /// Of the texel there; the azimuth is measured from the sun.
+    /// Radiance of a texel; the azimuth is measured from the sun.
     static glm::dvec3 radiance(double zenithDegrees, double azimuthDegrees) {
         const double azimuth = std::atan2(toSun_.z, toSun_.x) + radiansOf(azimuthDegrees);
         const double fromTop = radiansOf(zenithDegrees), level = std::sin(fromTop);
@@ -60,8 +60,8 @@ protected:
 
 constexpr double kSunElevationDegrees = 38.0;
 
-/// exp(-tau / sin): tau is each height of an exponential layer times what it takes away at the ground, and of ozone the
-/// area of its triangle. The eye stands in 200 m, above 2.5 % of the air.
+/// Transmittance exp(-tau / sin): tau sums the scale height of each exponential layer times its extinction at the
+/// ground, and the area of ozone's triangle. The eye is at 200 m, above 2.5 % of the air.
 TEST_F(BuiltinSky, theSunIsAsRedAsTheAirsOpticalDepthSays) {
     EXPECT_NEAR(std::asin(toSun_.y), radiansOf(kSunElevationDegrees), 1e-3); // a sixth of a texel
     const glm::dvec3 depth = 8.0 * glm::dvec3(5.802e-3, 13.558e-3, 33.1e-3) + 1.2 * 4.44e-3 +
@@ -72,7 +72,7 @@ TEST_F(BuiltinSky, theSunIsAsRedAsTheAirsOpticalDepthSays) {
     const glm::dvec3 left = glm::exp(-depth / std::sin(radiansOf(kSunElevationDegrees))); // 0.905, 0.794, 0.643
     for (int c = 0; c < 3; ++c) {
         EXPECT_NEAR(sunIrradiance_[c] / sunIrradiance_.g, left[c] / left.g, 0.01) << c;
-        // 4 above the air; the disk's texels are found by 16 x 16 places each, which errs by 0.6 %.
+        // 4 above the air; the disk's texels are sampled at 16 x 16 points each, an error of 0.6 %.
         EXPECT_NEAR(sunIrradiance_[c], 4.0 * left[c], 0.03 * 4.0) << c;
     }
 }
@@ -89,9 +89,9 @@ constexpr TracedSky kTracedSkies[] = {
     {80.0, 90.0, {0.08126, 0.15909, 0.29470}},  {60.0, 180.0, {0.03390, 0.07355, 0.16828}},
     {60.0, 0.0, {0.12270, 0.17076, 0.28552}},   {80.0, 180.0, {0.10342, 0.20095, 0.35932}}};
 
-/// All orders but the first are taken for light from everywhere (Hillaire 2020), which loses more the more of it there
-/// is: in blue, towards the horizon. Without them 29 % of red and 41 % of blue are missing at the zenith; a haze with
-/// g = 0.76 or 0.84 is off by 12 % beside the sun.
+/// All orders but the first are taken as isotropic light (Hillaire 2020), which loses most where there is most of it:
+/// in blue, towards the horizon. Without them 29 % of red and 41 % of blue are missing at the zenith; a haze with g =
+/// 0.76 or 0.84 is off by 12 % beside the sun.
 TEST_F(BuiltinSky, showsWhatPathsTracedThroughItsAirShow) {
     constexpr double kMostLost[] = {0.04, 0.065, 0.09}; // measured as 0.025, 0.052 and 0.073
     constexpr double kMostGained = 0.025;               // measured as 0.01; noise of paths 0.005, of texels 0.01
@@ -135,7 +135,7 @@ private:
                 sum({0.00275, -0.00610, 0.00317, 0.0}, {-0.04214, 0.08970, -0.04153, 0.00516},
                     {0.15346, -0.26756, 0.06670, 0.26688})};
     }
-    /// Of Y, x and y. Source: Perez and others 1993.
+    /// Perez function of Y, x or y. Source: Perez and others 1993.
     static double perez(int quantity, double zenith, double toSun) {
         constexpr double kByTurbidity[3][5] = {{0.1787, -0.3554, -0.0227, 0.1206, -0.0670},
                                                {-0.0193, -0.0665, -0.0004, -0.0641, -0.0033},
@@ -151,19 +151,19 @@ private:
     double sunZenith_;
 };
 
-/// Of linear sRGB (IEC 61966-2-1).
+/// CIE XYZ of linear sRGB (IEC 61966-2-1).
 glm::dvec3 tristimulusOf(const glm::dvec3& rgb) {
     return {glm::dot(rgb, {0.4124, 0.3576, 0.1805}), glm::dot(rgb, {0.2126, 0.7152, 0.0722}),
             glm::dot(rgb, {0.0193, 0.1192, 0.9505})};
 }
 
-/// Away from the sun, where haze matters little. The built-in sky has a twentieth of the haze of that turbidity, and so
-/// is up to 40 % darker around the sun.
+/// Compares directions away from the sun, where haze matters little. The built-in sky has a twentieth of the haze of
+/// that turbidity, and is up to 40 % darker around the sun.
 TEST_F(BuiltinSky, isNearAPublishedClearSkyAwayFromTheSun) {
     const PreethamSky published(radiansOf(90.0 - kSunElevationDegrees));
     const glm::dvec3 zenith = tristimulusOf(radiance(0.0, 0.0)), wanted = published.luminanceAndChromaticity(0.0, 0.0);
     const double sum = zenith.x + zenith.y + zenith.z;
-    // Three wavelengths stand for red, green and blue, below a sun that is white.
+    // The built-in sky has three wavelengths, as red, green and blue, and a white sun.
     EXPECT_NEAR(zenith.x / sum, wanted.y, 0.015);
     EXPECT_NEAR(zenith.y / sum, wanted.z, 0.015);
     for (const glm::dvec2& place : {glm::dvec2(30.0, 180.0), glm::dvec2(60.0, 90.0), glm::dvec2(80.0, 90.0)}) {

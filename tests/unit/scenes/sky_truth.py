@@ -114,7 +114,7 @@ def path(towards, channel, depths, share):
         radius = math.sqrt(dot(place, place))
         steps = 80 if order == 0 else 40
         length, sums, is_ground = march(radius, dot(place, direction) / radius, channel, steps)
-        if order == 0:  # it scatters in any case
+        if order == 0:  # scattering is forced
             within = 1.0 - math.exp(-sums[-1])
             depth = -math.log(1.0 - share * within)
             weight *= within

@@ -21,12 +21,12 @@ protected:
     std::string fault(const std::string& entry, const Defines& defines = {}) {
         return test::errorText<InputError>([&] { expanded(entry, defines); });
     }
-    /// The expansion of main.frag with this text.
+    /// Returns the expansion of main.frag with this text.
     ExpandedSource ofMain(const std::string& text, const Defines& defines = {}) {
         folder.write("main.frag", text);
         return expanded("main.frag", defines);
     }
-    /// An entry that calls a hook, whose file has this text.
+    /// Writes an entry that calls a hook, and the hook's file with this text. Returns the file's path.
     std::string writeHooked(const std::string& hook) {
         folder.write("main.frag", "#include \"lib/material/hook_interface.glsl\"\n");
         folder.write("lib/material/hook_interface.glsl", "\n");

@@ -42,7 +42,7 @@ TEST_F(HookFault, whatTheDriverGivesNoPlaceIsNamedByTheLineOfTheHookThatItSpeaks
                                             "recursion"));
     EXPECT_THAT(said("error: fragment shader input `glow' has no matching output in the previous stage"),
                 StartsWith(file + ":4: the driver refuses this hook: error: fragment"));
-    // As NVIDIA and glslang quote.
+    // Quotation marks of NVIDIA and glslang.
     EXPECT_THAT(said("error C9: \"glow\" is not written"), StartsWith(file + ":4: "));
     EXPECT_THAT(said("error: 'glow' : it isn't written, and can't be"), StartsWith(file + ":4: "));
     EXPECT_THAT(said("error: it isn't glow, but `another' or `tw"), StartsWith(file + ": the driver refuses"));
@@ -78,7 +78,7 @@ TEST_F(HookFault, onlyErrorsWithinTheHookNameIt) {
     EXPECT_EQ(hookFileOf({"plain", "a.vert", "a.frag", "", {}}), "");
 }
 
-/// What takes the hook's place does what a hook must, and nothing of the scene's is left in the program.
+/// An empty hook is a valid hook, and no text of the scene's hook is left in the program.
 TEST_F(HookFault, aProgramWithAnEmptyHookHoldsNothingOfTheScenes) {
     ProgramDesc asking = withEmptyHook(desc);
     asking.vertex.clear();

@@ -7,7 +7,7 @@ namespace {
 
 const std::vector<std::string> kFiles{"passes/light.frag", "lib/reflectance/brdf.glsl"};
 
-// The first lines are what Mesa 22.3, NVIDIA 5xx and glslang 12 print for an undeclared name.
+// The first lines are messages of Mesa 22.3, NVIDIA 5xx and glslang 12 for an undeclared name.
 TEST(MapLog, placesOfMesaAreMapped) {
     EXPECT_EQ(mapLog("1:12(5): error: `x' undeclared\n0:3(1): warning: w\n", kFiles),
               "shaders/lib/reflectance/brdf.glsl:12: error: `x' undeclared\nshaders/passes/light.frag:3: warning: w\n");
@@ -36,7 +36,7 @@ TEST(MapLog, linesWithoutAKnownPlaceStay) {
     EXPECT_EQ(mapLog(log, kFiles), log);
 }
 
-// What Mesa says of a function that calls itself.
+// Mesa's message for a recursive function.
 TEST(MapLog, lineZeroIsNoPlace) {
     EXPECT_EQ(mapLog("0:0(0): error: function `float f(float)' has static recursion\nERROR: 0:0: x", kFiles),
               "error: function `float f(float)' has static recursion\nerror: x");

@@ -1,4 +1,4 @@
-// Every shader that a built-in scene can ask for, checked by the reference compiler instead of the driver at hand.
+// Checks every shader that a built-in scene can need with the reference compiler instead of the local driver.
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -44,7 +44,7 @@ frame::FrameSettings smallFrame() {
     return settings;
 }
 
-/// The settings whose programs differ: layouts x views, and each switch that a shader knows.
+/// Settings whose programs differ: layouts x views, and each switch that affects a shader.
 std::vector<frame::FrameSettings> settingsThatMatter() {
     std::vector<frame::FrameSettings> all;
     for (const frame::LayoutInfo& layout : frame::layoutTable()) {
@@ -53,7 +53,7 @@ std::vector<frame::FrameSettings> settingsThatMatter() {
         for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
             frame::FrameSettings& ofView = all.emplace_back(settings);
             ofView.view = view.view;
-            ofView.prune = !view.needsGBuffer; // a scene may not need the channel that is shown
+            ofView.prune = !view.needsGBuffer; // a scene may lack the displayed channel
         }
         settings.prune = false;
         all.push_back(settings);
@@ -75,7 +75,7 @@ std::vector<frame::FrameSettings> settingsThatMatter() {
     return all;
 }
 
-/// Those that the measured lower bound of a frame would use.
+/// Adds the programs of the measured lower bound of a frame.
 void addLowerBoundPrograms(Programs& programs, const frame::FrameSpec& spec) {
     add(programs, validation::LowerBoundGeometry::program(spec));
     if (!spec.features.litModels()) return;
@@ -83,7 +83,7 @@ void addLowerBoundPrograms(Programs& programs, const frame::FrameSpec& spec) {
         add(programs, validation::LowerBoundLighting::program(spec, store));
 }
 
-/// Those of light culling by every method and builder, and of lighting in compute shaders.
+/// Techniques and settings of light culling by every method and builder, and of lighting in compute shaders.
 std::vector<std::pair<engine::Technique, frame::FrameSettings>> listBuildersAndStages() {
     std::vector<std::pair<engine::Technique, frame::FrameSettings>> all;
     frame::FrameSettings settings = smallFrame();
@@ -102,8 +102,8 @@ std::vector<std::pair<engine::Technique, frame::FrameSettings>> listBuildersAndS
     return all;
 }
 
-/// Adds the variants that frames of the scene would use, by their key; or, unless the sweep is whole, in each third of
-/// the settings, those whose turn it is.
+/// Adds the program variants of the scene's frames, by their key. A reduced sweep takes every third of the settings,
+/// starting at `turn`.
 void addPrograms(Programs& programs, const scenes::Scene& scene, std::size_t turn) {
     for (const frame::FrameSettings& settings : settingsThatMatter()) {
         if (!test::isWholeSweep() && turn++ % 3 != 0) continue;
@@ -120,7 +120,7 @@ void addPrograms(Programs& programs, const scenes::Scene& scene, std::size_t tur
     }
 }
 
-/// Those of a light whose surface is seen, which no built-in scene has.
+/// Adds the programs of a visible light surface, which no built-in scene has.
 void addSeenLightPrograms(Programs& programs) {
     scenes::Scene scene = test::evenScene();
     const glm::dmat4& eye = scene.cameras[0].worldFromCamera;
@@ -140,7 +140,7 @@ void addSeenLightPrograms(Programs& programs) {
     EXPECT_TRUE(isThere);
 }
 
-/// Those of a scene with a hook, in every setting that changes what reaches it.
+/// Adds the programs of a scene with a hook, in every setting that changes the hook's inputs.
 void addHookedPrograms(Programs& programs) {
     scenes::Scene scene = test::everythingScene();
     scene.hook.emplace().file =
@@ -155,7 +155,7 @@ void addHookedPrograms(Programs& programs) {
     const shader::ProgramDesc moving = engine::hookProgram(engine::kHookVertices, waving);
     for (const shader::ProgramDesc& desc : {asking, moving}) {
         add(programs, desc);
-        add(programs, shader::withEmptyHook(desc)); // what tells whether a hook is at fault must never be
+        add(programs, shader::withEmptyHook(desc)); // checks for faulty hooks, so it must be valid
     }
     for (const frame::TextureFilter filter : {frame::TextureFilter::Hardware, frame::TextureFilter::Exact}) {
         for (const frame::DebugView view : {frame::DebugView::Final, frame::DebugView::NormalObject}) {
@@ -169,7 +169,7 @@ void addHookedPrograms(Programs& programs) {
     }
 }
 
-/// Of all built-in scenes, or of those for sweeps.
+/// Programs of all built-in scenes, or of those of a reduced sweep.
 Programs requestedPrograms() {
     Programs programs;
     std::size_t turn = 0;
@@ -178,13 +178,13 @@ Programs requestedPrograms() {
         options.useAssets = false;
         addPrograms(programs, scenes::loadScene(std::string(builtin.name), options), turn++);
     }
-    addPrograms(programs, test::evenScene(), turn); // materials by number beside maps and layers
+    addPrograms(programs, test::evenScene(), turn); // material numbers beside maps and layers
     addSeenLightPrograms(programs);
     addHookedPrograms(programs);
     return programs;
 }
 
-/// Khronos' compiler, which keeps what it knows of a stage's built-in functions for the next shader of that stage.
+/// Khronos' compiler. It caches the built-in functions of a stage for the next shader of that stage.
 class ReferenceCompiler {
 public:
     ReferenceCompiler() { glslang::InitializeProcess(); }
@@ -193,10 +193,10 @@ public:
     ReferenceCompiler& operator=(const ReferenceCompiler&) = delete;
 
     struct Verdict {
-        std::string faults;      ///< empty when all is well
+        std::string faults;      ///< empty without errors
         int sampledTextures = 0; ///< as gpu::Program::sampledTextures(), of the stage that samples most
     };
-    /// Compiles a program's stages and links them together. For any thread.
+    /// Compiles a program's stages and links them together. Thread-safe.
     Verdict judge(const shader::ProgramDesc& desc) const {
         std::vector<std::unique_ptr<glslang::TShader>> stages;
         glslang::TProgram program; // destroyed before the shaders
@@ -217,7 +217,7 @@ public:
     }
 
 private:
-    static constexpr int kVersion = 110; ///< of sources that name none; all of them do
+    static constexpr int kVersion = 110; ///< of sources without a version; all have one
 
     static int sampledTextures(glslang::TProgram& program, EShLanguage stage) {
         int sampled = 0;
@@ -247,7 +247,7 @@ private:
     shader::SourceTree tree_ = shader::SourceTree::embedded();
 };
 
-/// Every program, or every twelfth of those in turn unless the sweep is whole.
+/// Checks every program; a reduced sweep checks every twelfth.
 void expectValidPrograms() {
     const Programs programs = requestedPrograms();
     ASSERT_FALSE(programs.empty());
@@ -264,9 +264,9 @@ void expectValidPrograms() {
         EXPECT_LE(verdicts[i].sampledTextures, TEXTURE_UNITS_A_STAGE) << work[i]->key();
         mostSampled = std::max(mostSampled, verdicts[i].sampledTextures);
     }
-    // Every texture of a material, lights, the entries of light lists and casters, the two tables of lobes, and the
-    // environment's map as it is and as it is filtered, and what stands behind glass, sharp and blurred, with its
-    // depths and the back faces of glass, are in one of them.
+    // One stage samples all of these: every texture of a material; lights, entries of light lists, and casters; both
+    // lobe tables; the environment's map, plain and filtered; and the scene behind glass, sharp and blurred, with its
+    // depths and the back faces of glass.
     if (test::isWholeSweep()) {
         EXPECT_EQ(mostSampled, TEXTURE_SLOT_COUNT + 3 + 2 + 2 + 4);
     }

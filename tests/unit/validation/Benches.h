@@ -18,7 +18,7 @@ inline BenchResult madeUpResult(const std::string& technique, double ms, std::op
     result.why = {{"gpuMs", "made up"}, {"error.flip", "made up"}};
     result.counters.lightEvaluations = 1000;
     result.counters.triangles = 12;
-    result.floorMs = 1.0 / 3.0; // whose digits must survive
+    result.floorMs = 1.0 / 3.0; // its digits must survive
     result.ratioToFloor = 3.0 * ms;
     result.floorLitMs = 1.0 / 6.0;
     result.ratioToLitFloor = 6.0 * ms;

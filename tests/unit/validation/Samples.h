@@ -18,7 +18,7 @@ struct Rgb {
     float r, g, b;
 };
 
-/// A picture from its colours, row by row from the top; every pixel covered.
+/// An image of these colours, row by row from the top; every pixel is covered.
 inline Picture pictureOf(int width, int height, const std::vector<Rgb>& colours) {
     Picture picture{width, height, {}, std::vector<std::uint8_t>(colours.size(), 1)};
     for (const Rgb& c : colours) picture.rgba.insert(picture.rgba.end(), {c.r, c.g, c.b, 1.f});
@@ -35,7 +35,7 @@ inline void setPixel(Picture& picture, std::size_t index, Rgb c) {
     picture.rgba[4 * index + 2] = c.b;
 }
 
-/// A new empty folder that is gone after the test.
+/// A new empty folder that is deleted after the test.
 class TemporaryFolder {
 public:
     TemporaryFolder() {

@@ -28,7 +28,7 @@ std::string refusal(const std::string& json) {
     return test::errorText<InputError>([&] { matrixOf(json); });
 }
 
-/// The plan of one technique over a scene, in a picture of 64x36 pixels.
+/// The plan of one technique on a scene, at 64x36 pixels.
 BenchPlan planOf(const std::string& scene, const std::string& json, frame::FrameSettings settings = {},
                  const scenes::LoadOptions& options = {}) {
     settings.sizePixels = {64, 36};
@@ -51,7 +51,7 @@ std::vector<std::string> reasonsOf(const BenchPlan& plan) {
     return reasons;
 }
 
-/// 16 KB may ask for 10^11 points.
+/// 16 KB may request 10^11 points.
 TEST(BenchMatrix, pointsAreCountedBeforeTheyArePlanned) {
     std::string hundred = "0";
     for (int i = 1; i < 100; ++i) hundred += "," + std::to_string(i);
@@ -64,7 +64,7 @@ TEST(BenchMatrix, pointsAreCountedBeforeTheyArePlanned) {
               "shorten the lists, or divide them over several runs");
     EXPECT_THAT(refusal("{" + two + sizes + "]}"), testing::StartsWith("m.json: asks for 8e+05 points"))
         << "of every technique";
-    const std::string counted = hundred.substr(hundred.find(',') + 1); // from 1
+    const std::string counted = hundred.substr(hundred.find(',') + 1); // 1 to 99
     EXPECT_THAT(refusal(one + R"("shadowSamples": [)" + counted +
                         R"(], "environmentSamples": [1, 4, 16, 64, 1, 4, 16, 64, 1, 4, 16]})"),
                 testing::StartsWith("m.json: asks for 1.09e+03 combinations of settings"));
@@ -97,7 +97,7 @@ TEST(ShadowMatrix, valuesHaveTheBoundsOfTheSettings) {
 }
 
 TEST(ShadowMatrix, everySettingIsVariedByItsFilterAndDrawnOnceWithTheOthers) {
-    // A lamp with a size and a sun: all settings of shadows are heeded by some filter.
+    // A lamp with a size and a sun: each shadow setting affects some filter.
     const auto names = [](const std::string& more) {
         return namesOf(planOf("shadow_truth", R"({"shadow": ["traced", "hard", "pcf", "pcss", "none"])" + more + "}"));
     };
@@ -133,7 +133,7 @@ TEST(ShadowMatrix, mapsWithTheSameFacesAreMeasuredOnce) {
 
 TEST(ShadowMatrix, aSceneWithoutShadowsIsOnePoint) {
     const std::string matrix = R"({"shadow": ["traced", "hard", "none"], "shadowResolution": [64, 128]})";
-    const BenchPlan room = planOf("room", matrix); // none of its lights asks for shadows
+    const BenchPlan room = planOf("room", matrix); // none of its lights casts shadows
     EXPECT_THAT(namesOf(room), ElementsAre("forward, exact"));
     EXPECT_THAT(reasonsOf(room), testing::Each(HasSubstr("there are no shadows")));
     EXPECT_EQ(room.skipped.size(), 5u);
@@ -206,7 +206,7 @@ TEST(ShadowPoints, theRecommendationNamesTheFilterAndThatOfTheForwardItIsCompare
     const BenchGroup group = shadowedGroup();
     const std::optional<Recommendation> choice = recommendFor(group);
     EXPECT_EQ(choice->best, &group.results[2]);
-    EXPECT_EQ(choice->baseline, &group.results[0]); // of forward's pictures the exact one
+    EXPECT_EQ(choice->baseline, &group.results[0]); // the most exact of forward's points
     EXPECT_THAT(recommendationText(group),
                 HasSubstr("take deferred, exact, pcf, 5x5, 1024 texels, 0.5 MiB: 10.0x faster than forward (traced) at "
                           "relMSE 5.0e-05"));
@@ -230,7 +230,7 @@ TEST(SubsurfaceMatrix, methodsAndSettingsOfSpreadLightAreVariedWhereTheyChangeTh
                             "forward, exact, traced, texture_space_diffusion, half resolution on"));
     EXPECT_THAT(reasonsOf(plan), testing::Contains(HasSubstr("it is the same frame as traced, wrap")));
     EXPECT_THAT(namesOf(planOf("room", R"({"subsurface": ["wrap", "none"]})")), ElementsAre("forward, exact"));
-    // By itself, the frame is what the materials ask for.
+    // By default, the frame uses the methods of its materials.
     EXPECT_THAT(namesOf(planOf("diffusion_truth", "{}")),
                 ElementsAre("forward, exact, traced, texture_space_diffusion"));
 }
@@ -260,7 +260,7 @@ TEST(SubsurfacePoints, theRecordHasThemAndReadsThemAgain) {
 
 scenes::LoadOptions inTheStudio() {
     scenes::LoadOptions options;
-    options.environment = "studio"; // which is made the fastest
+    options.environment = "studio"; // the fastest to make
     return options;
 }
 
@@ -287,7 +287,7 @@ TEST(EnvironmentMatrix, everySettingIsVariedWhereItIsHeeded) {
                             "forward, exact, environment sampled, compensation on"));
     EXPECT_THAT(reasonsOf(plan), testing::Contains(HasSubstr("it is the same frame as no environment light")));
     EXPECT_EQ(plan.skipped.size(), 5u);
-    // By itself the frame is what the command line says.
+    // By default, the frame uses the settings of the command line.
     EXPECT_THAT(namesOf(planOf("room", "{}", {}, inTheStudio())), ElementsAre("forward, exact, environment split_sum"));
 }
 
@@ -382,7 +382,7 @@ TEST(EnvironmentPoints, theRecordHasThemAndReadsThemAgain) {
     BenchRecord record;
     record.groups = {group};
     EXPECT_THAT(benchCsv(record), HasSubstr(",sampled,16,on,,,4,64,32,"));
-    EXPECT_THAT(benchTable(record), HasSubstr("environ")); // its title may break
+    EXPECT_THAT(benchTable(record), HasSubstr("environ")); // its title may wrap
     const std::string page = benchHtml(record, record.groups[0], {}).sections;
     EXPECT_THAT(page,
                 HasSubstr("<td data-label=\"Environment\">environment sampled, samples 16, compensation on</td>"));

@@ -108,7 +108,7 @@ TEST(BenchPageHead, tilesClaimNoMoreThanTheSentenceBelowThem) {
     EXPECT_THAT(tiles(11.0), testing::AllOf(HasSubstr("<dt>Take</dt><dd>deferred"), HasSubstr("4.0&times;")));
     EXPECT_THAT(tiles(21.0), testing::AllOf(HasSubstr("<dt>Ahead</dt><dd>deferred"), HasSubstr("the machine was busy"),
                                             Not(HasSubstr("&times;<small>"))));
-    // Within each other's spread.
+    // Times within each other's spread.
     record.groups = {madeUpGroup(10, {madeUpResult("forward", 32, 1e-9), madeUpResult("deferred", 30, 1e-9)})};
     EXPECT_THAT(benchReport(record, "").bench->answer, HasSubstr("<dd>1.0&times;<small>as fast as forward"));
 }
@@ -154,7 +154,7 @@ TEST(Recommend, ofTimesThatTheSpreadDoesNotTellApartTheSmallerErrorIsTaken) {
         madeUpGroup(257, {madeUpResult("deferred", 30, 2e-5, "packed"), madeUpResult("deferred", 34, 1e-9)});
     EXPECT_EQ(recommendFor(apart)->best, &apart.results[0]);
     EXPECT_EQ(recommendFor(apart)->asFast, nullptr);
-    // Errors within a factor of two are one error, and then the faster stays.
+    // Errors within a factor of two count as equal, and then the faster one stays.
     const BenchGroup equal =
         madeUpGroup(257, {madeUpResult("forward", 31, 1e-9), madeUpResult("deferred", 30, 1.5e-9)});
     EXPECT_EQ(recommendFor(equal)->best, &equal.results[1]);

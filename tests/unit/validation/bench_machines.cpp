@@ -21,7 +21,7 @@ class BenchMachines : public testing::Test {
 protected:
     std::string path(const std::string& name) const { return (folder_.path() / name).string(); }
 
-    /// A finished shard of four groups, measured on a machine whose frames take so long.
+    /// Writes a finished shard of four groups, measured on a machine with frames of `ms`.
     std::string shardOn(const std::string& name, const std::string& machine, int shard, int shards, double ms,
                         const std::string& commit = "abc") const {
         fs::create_directory(path(name));

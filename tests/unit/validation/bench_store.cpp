@@ -35,7 +35,7 @@ protected:
         return state;
     }
 
-    /// A shard with all its groups measured; its folder.
+    /// Writes a shard with all its groups measured and returns its folder.
     std::string finishedShard(const std::string& name, int shard, int shards, int groups) const {
         const BenchStore store(folder(name), madeUpIdentity(shard, shards), madeUpPlan(groups), EarlierRun::Keep);
         for (int i = 0; i < groups; ++i)
@@ -149,7 +149,7 @@ TEST_F(BenchStoring, aFolderIsNotGivenToTwoRunsAtOnceAndTheHolderIsNamed) {
         EXPECT_THAT(refused([&] { mergeRuns({finishedShard("whole", 1, 1, 1)}, out); }), inUse);
     }
     EXPECT_FALSE(fs::exists(out + "/bench.lock"));
-    // What a killed process leaves behind holds nothing.
+    // The lock file of a killed process does not lock.
     std::ofstream(out + "/bench.lock") << "process 1";
     EXPECT_NO_THROW(BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Resume));
 }
@@ -170,7 +170,7 @@ TEST_F(BenchStoring, whatNoRunHasMadeIsNeverDeleted) {
         test::errorText<InputError>([&] { BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep); }),
         HasSubstr("parts/group-lamps: is no file"));
     fs::remove(fs::path(out) / "parts/group-lamps");
-    // What a merge leaves that was cut short goes.
+    // Leftovers of an interrupted merge are deleted.
     for (const char* file : {"group-000.json", "group-000-truth.png", ".tessera-0123456789abcdef.tmp"})
         folder_.write(std::string("out/parts/") + file, "half");
     EXPECT_NO_THROW(BenchStore(out, madeUpIdentity(), madeUpPlan(1), EarlierRun::Keep));

@@ -183,7 +183,7 @@ TEST(ErrorFigures, percentilesOfRelAreThoseOfTheWorstChannel) {
 }
 
 TEST(ErrorFigures, psnrIsOfTheClampedSrgbBytes) {
-    // 2 and 1 show alike; linear 0 against 1 is a difference of 255 in each channel of half the pixels: 10 log10(2) dB.
+    // 2 and 1 display alike; linear 0 against 1 differs by 255 in each channel of half the pixels: 10 log10(2) dB.
     const Picture b = pictureOf(2, 1, {{1, 1, 1}, {1, 1, 1}});
     EXPECT_NEAR(errorFigures(pictureOf(2, 1, {{2, 2, 2}, {0, 0, 0}}), b).psnr.value(), 10.0 * std::log10(2.0),
                 kRounding);

@@ -53,8 +53,8 @@ TEST(Flip, everyErrorIsBetweenZeroAndOne) {
     }
 }
 
-/// Constant pictures pass every filter unchanged and have no features, so that the error is the colour error alone.
-/// The values were worked out from the paper's formulas outside of this program, with the matrix of IEC 61966-2-1.
+/// Constant images pass every filter unchanged and have no features, so that the error is the colour error alone. The
+/// values were calculated from the paper's formulas outside of this program, with the matrix of IEC 61966-2-1.
 TEST(Flip, uniformPicturesHaveTheErrorWorkedOutByHand) {
     struct Known {
         Code a, b;
@@ -118,7 +118,7 @@ TEST(FlipFilters, aStepOfHeightOneIsAnEdgeOfHeightOne) {
     Plane plane(41, 41);
     for (std::size_t i = 0; i < plane.values.size(); ++i) plane.values[i] = i % 41 > 20 ? 1.0f : 0.0f;
     const Features features = featuresOf(plane, kFlipPixelsPerDegree);
-    // Between the pixels of the step the slope kernel covers one side of it but for its centre, whose weight is 0.
+    // At the step, each half of the slope kernel lies on one side of it; the kernel's centre has weight 0.
     EXPECT_NEAR(*std::max_element(features.edges.values.begin(), features.edges.values.end()), 1.0f, 1e-5f);
 }
 

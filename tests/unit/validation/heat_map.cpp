@@ -43,7 +43,7 @@ TEST(ErrorScale, aDecadeIsASeventhOfTheScale) {
     EXPECT_EQ(scalePosition(0.0), 0.0);
     EXPECT_EQ(scalePosition(1e-9), 0.0);
     EXPECT_EQ(scalePosition(1e9), 1.0);
-    for (int exponent = -7; exponent <= 0; ++exponent) // 1e-12: what log10 and the division round
+    for (int exponent = -7; exponent <= 0; ++exponent) // 1e-12: rounding of log10 and the division
         EXPECT_NEAR(scalePosition(std::pow(10.0, exponent)), (exponent + 7) / 7.0, 1e-12);
 }
 
@@ -76,7 +76,7 @@ TEST(HeatMap, theLegendIsTheScaleFromEndToEnd) {
                   scaleColour(double(x) / (layout.legendWidth - 1)));
 }
 
-/// By column, whether anything is drawn below the colour bar.
+/// Whether each column has anything drawn in these rows below the colour bar.
 std::vector<bool> inkBelow(const DisplayImage& image, int firstRow, int endRow) {
     std::vector<bool> hasInk(std::size_t(image.width));
     for (int y = firstRow; y < endRow; ++y)
@@ -96,7 +96,7 @@ TEST(HeatMap, theLegendsWordsAreNotCutOffAndItsLabelsStandApart) {
             const std::vector<bool> ink = inkBelow(image, bottom, layout.height);
             EXPECT_EQ(std::find(ink.begin() + layout.legendX + layout.legendWidth, ink.end(), true), ink.end());
         }
-        // The labels are all between ticks and swatches; a gap of a letter's width is between two of them.
+        // All labels lie between ticks and swatches, with a gap of a letter's width between two of them.
         const int unit = layout.textScale, tickRows = unit * (3 + 1);
         const std::vector<bool> ink =
             inkBelow(errorHeatMap(picture, picture, "t"), bottom + tickRows, bottom + tickRows + unit * kLineHeight);

@@ -17,9 +17,9 @@ scenes::Light lightAt(const glm::dvec3& positionWS, float rangeMetres) {
     return light;
 }
 
-/// Shines colour x intensity / (A + B d + C d^2).
+/// A light of colour x intensity / (A + B d + C d^2).
 scenes::Light fallingOffByABC(const glm::dvec3& positionWS, float intensity, const glm::vec3& abc) {
-    scenes::Light light = lightAt(positionWS, 0.0f); // its range does not count
+    scenes::Light light = lightAt(positionWS, 0.0f); // its range is ignored
     light.falloff = scenes::Falloff::Attenuation;
     light.intensity = intensity;
     light.attenuation = abc;
@@ -163,7 +163,7 @@ TEST_F(LightOracle, aSpotOfABCIsNeededExactlyInsideItsConeAndAboveTheTolerance) 
 }
 
 TEST_F(LightOracle, anAreaLightIsNeededUpToItsRangeOrToWhereItCanCauseTheTolerance) {
-    // 12 m^2 in a ball of 2.5 m; the surface is 5 m from its middle, so 2.5 m from the ball.
+    // 12 m^2 in a bounding sphere of 2.5 m; the surface is 5 m from its centre, so 2.5 m from the sphere.
     scenes::Light panel = lightAt({3.0, 0.0, -1.0}, 5.0f);
     panel.type = scenes::LightType::Rectangle;
     panel.widthMetres = 3.0f;
@@ -187,13 +187,13 @@ TEST_F(LightOracle, anAreaLightIsNeededUpToItsRangeOrToWhereItCanCauseTheToleran
 }
 
 TEST_F(LightOracle, aFlatLightIsNeededBeforeItsSurfaceAloneUnlessItShinesFromBothSides) {
-    // The surface is 2 m from its middle, along -z.
+    // The surface is 2 m from its centre, along -z.
     scenes::Light panel = lightAt({0.0, 0.0, -3.0}, 5.0f);
     panel.type = scenes::LightType::Rectangle;
     panel.widthMetres = panel.heightMetres = 1.0f;
     for (const float rangeMetres : {5.0f, scenes::kInfinity}) {
         panel.rangeMetres = rangeMetres;
-        settings_.rangeTolerance = 1e-3; // ends those without a range
+        settings_.rangeTolerance = 1e-3; // limits lights without a range
         panel.isTwoSided = false;
         panel.directionWS = {0.0, 0.0, -1.0};
         EXPECT_EQ(needed(panel), 1u);
@@ -217,7 +217,7 @@ TEST_F(LightOracle, aFlatLightIsNeededBeforeItsSurfaceAloneUnlessItShinesFromBot
 }
 
 TEST_F(LightOracle, anAreaLightIsLitWhereAnyPartOfItMayBeInFrontOfTheSurface) {
-    scenes::Light ball = lightAt({0.0, 0.0, -6.0}, 5.0f); // its middle is a metre behind
+    scenes::Light ball = lightAt({0.0, 0.0, -6.0}, 5.0f); // its centre is a metre behind
     ball.type = scenes::LightType::Sphere;
     for (const bool isEndless : {false, true}) {
         if (isEndless) ball.rangeMetres = scenes::kInfinity;
@@ -309,7 +309,7 @@ TEST_F(LightOracle, pixelsWithoutASurfaceAreNotCounted) {
     settings_.sizePixels = {2, 1};
     depth_ = {0.0f, 0.5f};
     normalWS_ = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f};
-    // The second pixel's centre, half a picture height of 1 m right of the middle times the aspect of 2.
+    // The second pixel's centre is 1 m right of the middle: half the half height of 1 m, times the aspect of 2.
     scene_.lights[0].positionWS.x = 1.0;
     EXPECT_EQ(judge().covered, 1u);
     EXPECT_EQ(judge().needed, 1u);
@@ -328,7 +328,7 @@ TEST_F(LightOracle, aPixelsSurfaceIsWhereItsPerspectiveDepthSays) {
     camera.worldFromCamera = glm::dmat4(0, 0, 1, 0, 0, 1, 0, 0, -1, 0, 0, 0, 10, 0, 0, 1);
     settings_.sizePixels = {3, 2};
     normalWS_.clear();
-    // Four metres ahead, the picture is 8 m high and 12 m wide, so pixels lie 4 m apart.
+    // Four metres ahead, the image is 8 m high and 12 m wide, so pixels lie 4 m apart.
     for (const bool endless : {true, false}) {
         camera.farMetres = endless ? std::numeric_limits<double>::infinity() : 8.0;
         // Reverse-Z, a + b/z with 1 at near and 0 at far: n/z, or n (f - z) / (z (f - n)).

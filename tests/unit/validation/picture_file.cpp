@@ -78,7 +78,7 @@ TEST(PictureFile, pngIsDecodedFromSrgbToLinear) {
     writePng(folder.file("a.png"), {2, 1, {0, 255, 188, 10, 11, 128}});
     const Picture picture = underLedger(readPicture, folder.file("a.png"));
     EXPECT_THAT(picture.covered, ElementsAre(1, 1));
-    // IEC 61966-2-1 by hand: x / 12.92 up to 10/255, ((x + 0.055) / 1.055)^2.4 above; 1e-6 is what fp32 leaves.
+    // IEC 61966-2-1 by hand: x / 12.92 up to 10/255, ((x + 0.055) / 1.055)^2.4 above; 1e-6 is the rounding of fp32.
     EXPECT_EQ(picture.pixel(0)[0], 0.f);
     EXPECT_EQ(picture.pixel(0)[1], 1.f);
     EXPECT_NEAR(picture.pixel(0)[2], 0.502886458, 1e-6);
@@ -89,13 +89,13 @@ TEST(PictureFile, pngIsDecodedFromSrgbToLinear) {
 
 TEST(PictureFile, pfmIsReadLinearAndFromTheTop) {
     const TemporaryFolder folder;
-    // PFM stores its rows from the bottom; a negative scale says little-endian.
+    // PFM stores its rows from the bottom; a negative scale means little-endian.
     const float rows[2][3] = {{1.f, 2.f, 3.f}, {4.f, 5.f, 1e-20f}};
     writeText(folder.file("a.pfm"), "PF\n1 2\n-1.0\n" + std::string(reinterpret_cast<const char*>(rows), sizeof(rows)));
     const Picture picture = underLedger(readPicture, folder.file("a.pfm"));
     ASSERT_EQ(picture.height, 2);
     EXPECT_THAT(picture.rgba, ElementsAre(4.f, 5.f, 1e-20f, 1.f, 1.f, 2.f, 3.f, 1.f));
-    // One channel is grey; a positive scale says big-endian and multiplies.
+    // One channel is grey; a positive scale means big-endian and multiplies.
     writeText(folder.file("b.pfm"), std::string("Pf\n1 1\n2\n\x3f\x80\0\0", 14));
     EXPECT_THAT(underLedger(readPicture, folder.file("b.pfm")).rgba, ElementsAre(2.f, 2.f, 2.f, 1.f));
 }
@@ -118,7 +118,7 @@ TEST(PictureFile, aBrokenInputIsAnInputErrorThatNamesTheFile) {
     }
 }
 
-/// Why a file with these bytes cannot be compared with, after its name.
+/// Returns the error of reading a file with these bytes, without the file's name.
 std::string refusalOf(const TemporaryFolder& folder, const std::string& name, const std::string& bytes) {
     writeText(folder.file(name), bytes);
     const std::string message = test::errorText<InputError>([&] { underLedger(readPicture, folder.file(name)); });
@@ -128,7 +128,7 @@ std::string refusalOf(const TemporaryFolder& folder, const std::string& name, co
 
 TEST(PictureFile, onlyReadersOfTexturesAreUsed) {
     const TemporaryFolder folder;
-    // "null" makes pictures of nothing at all, "mp4" opens films, and those of IFF and DPX crash on what is broken.
+    // "null" makes images from nothing, "mp4" opens films, and the readers of IFF and DPX crash on broken files.
     for (const char* extension : {"null", "mp4", "raw", "vdb", "iff", "dpx", "psd"})
         EXPECT_EQ(refusalOf(folder, std::string("a.") + extension, "FOR4"),
                   fmt::format("the picture format {} is not supported; convert the picture to png, jpeg, openexr, hdr, "
@@ -142,7 +142,7 @@ TEST(PictureFile, onlyReadersOfTexturesAreUsed) {
 TEST(PictureFile, picturesAreChargedBeforeTheyAreDecoded) {
     const TemporaryFolder folder;
     writeExr(folder.file("a.exr"), greyPicture(512, 512, 1.f));
-    const std::uint64_t kept = 512 * 512 * 17; // four floats a pixel, and whether it is covered
+    const std::uint64_t kept = 512 * 512 * 17; // four floats and a coverage byte per pixel
     scenes::LoadLedger ledger(std::uint64_t{32} << 20);
     readPicture(folder.file("a.exr"), ledger);
     EXPECT_EQ(ledger.usedBytes(), kept);

@@ -48,8 +48,8 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
     return count;
 }
 
-/// A fault in the nesting of tags or the quoting of attributes, or an empty string. Knows what reportHtml()
-/// may use: every element is closed, elements without content close themselves, style and script hold raw text.
+/// Returns a fault in the nesting of tags or the quoting of attributes, or an empty string. Covers the HTML of
+/// reportHtml(): every element is closed, elements without content close themselves, style and script hold raw text.
 std::string faultOf(const std::string& html) {
     std::vector<std::string> open;
     std::size_t at = html.find("<html");

@@ -1,4 +1,4 @@
-// The legends of views of shadow maps.
+// Legends of the views of shadow maps.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ std::vector<std::string> meanings(DebugView view, const engine::DrawnShadows& sh
     return result;
 }
 
-/// Of one light.
+/// Shadows of one light.
 engine::DrawnShadows shadowsOf(int faces, int sideTexels) {
     engine::DrawnShadows shadows;
     shadows.hasMaps = faces > 0;

@@ -135,7 +135,7 @@ TEST(StressResult, holdsExactlyWhenNothingIsBadAndItsFigureIsWithinTheTolerance)
     EXPECT_EQ(missedBy([](StressResult& r) { r.figures.samples = 0; }).size(), 1u);
     EXPECT_THAT(missedBy([](StressResult& r) { r.figures.worstRel = 0.5; }),
                 testing::ElementsAre("the worst relative error is 0.5, at most 0.001 was asked; at somewhere"));
-    // The other figure decides where a case says so.
+    // A case may bound the other figure instead.
     EXPECT_TRUE(missedBy([](StressResult& r) {
                     r.bound = StressBound::RelMse;
                     r.figures.worstRel = 0.5;

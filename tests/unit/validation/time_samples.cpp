@@ -24,7 +24,7 @@ TEST(TimeSamples, noSamplesNeverGiveANumber) {
 }
 
 TEST(TimeSamples, theSlopeIsExactlyTheMedianOverRoundsWhateverTheMachinesPace) {
-    // Rounds at paces 1, 2 and 10, the last one as if something else had run: 3 a unit at pace 1.
+    // Rounds at paces 1, 2 and 10, the last one as if another program had run: 3 per unit at pace 1.
     const std::vector<double> low{5.0, 10.0, 50.0}, high{5.0 + 12.0, 10.0 + 24.0, 50.0 + 120.0};
     EXPECT_EQ(slopeSpread(low, high, 4.0).median, 6.0);
     EXPECT_EQ(slopeSpread(high, low, 4.0).median, -6.0);

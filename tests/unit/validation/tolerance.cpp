@@ -42,7 +42,7 @@ TEST(Tolerance, aPairThatIsNotBitEqualNeverPassesWhereUnderATenthOfItsCoveredPix
 }
 
 TEST(Tolerance, theSignalIsCountedOverCoveredPixels) {
-    // Ten covered pixels of a hundred; a bright background is not what is compared.
+    // Ten covered pixels of a hundred; a bright background is not compared.
     Picture small = greyPicture(10, 10, 0.f);
     small.covered.assign(100, 0);
     for (std::size_t i = 0; i < 10; ++i) {

@@ -12,12 +12,12 @@ namespace {
 
 using culling::Method;
 
-/// Keys of depths 1/2 and 1 with the bias 1 differ in this bit and the ones above it only: slices of it tell them
-/// apart.
+/// The keys of depths 1/2 and 1 with the bias 1 differ in this bit and higher ones only, so slices of this size
+/// separate them.
 constexpr std::uint32_t kHalfShift = 22;
 
-/// Lists of a picture of 8 x 16 pixels in two tiles of 8 x 8, written by hand. Five lights, of which the GPU has all
-/// but the scene's light 1.
+/// Hand-written lists for an image of 8 x 16 pixels in two tiles of 8 x 8. The GPU has four of five lights: all but the
+/// scene's light 1.
 engine::DrawnLists listsByHand(Method method) {
     engine::DrawnLists drawn;
     drawn.culling.method = method;
@@ -59,7 +59,7 @@ TEST(VisitedLights, aPixelVisitsTheRunOfItsTileAndSlice) {
 
 TEST(VisitedLights, areInTheOrderOfTheSceneWhateverThatOfTheLists) {
     engine::DrawnLists drawn = runsByHand();
-    drawn.sceneIndex = {4, 0, 2, 3}; // as where light 4 alone casts shadows
+    drawn.sceneIndex = {4, 0, 2, 3}; // as if light 4 alone cast shadows
     EXPECT_EQ(visited(drawn, 15, 0.5f), (Lights{2, 4}));
     drawn.culling.method = Method::None;
     EXPECT_EQ(visited(drawn, 15, 0.5f), (Lights{0, 2, 3, 4}));
@@ -92,7 +92,7 @@ TEST(VisitedLights, aPixelVisitsTheBitsThatItsTileAndBinShare) {
     drawn.lists.tiles.resize(2);
     drawn.lists.tiles[0].words = {6, shared::packSlices(first, kHalfShift), 0, 0};
     drawn.lists.tiles[1].words = {9, shared::packSlices(first, kHalfShift), 0, 0};
-    // Two bins' masks, then two tiles'; bin 1 has no bit in its first word, and says so.
+    // Two bins' masks, then two tiles'; bin 1 has no bit in its first word, so its range starts at the second.
     drawn.lists.entries = {0b101u, 0x80000000u, 0b1u, 0u, 0b11u, 0b100000u, ~0u, ~0u, ~0u, 0b100u, 0b10u, 0b100000u};
     drawn.lists.cells = {{0, 3}, {1, 3}};
     EXPECT_EQ(visited(drawn, 15, 0.5f), (Lights{0, 2, 63, 64}));

@@ -9,7 +9,7 @@
 
 namespace tessera::viewer::test {
 
-/// What the pictures of 1000 pixels height of the tests are made with.
+/// Height of the tests' images.
 inline constexpr double kHeightPixels = 1000.0;
 
 inline scenes::Camera perspective(const glm::dvec3& eyeWS, const glm::dvec3& targetWS,
@@ -37,7 +37,7 @@ scenes::CameraChange changing(auto member, const auto& value, const auto&... mor
     return change;
 }
 
-/// Where a camera shows a point: pixels right of and below the picture's centre, and metres ahead.
+/// Projects a point: pixels right of and below the image's centre, and metres ahead.
 inline glm::dvec3 shownAt(const scenes::Camera& camera, const glm::dvec3& pointWS) {
     const glm::dvec4 point = glm::inverse(camera.worldFromCamera) * glm::dvec4(pointWS, 1.0);
     const double halfHeight = camera.projection == scenes::Projection::Perspective
@@ -47,7 +47,7 @@ inline glm::dvec3 shownAt(const scenes::Camera& camera, const glm::dvec3& pointW
     return {point.x * scale, -point.y * scale, -point.z};
 }
 
-/// Two cameras show the same picture to within `pixels`, here and there in it.
+/// Expects two cameras to show some points at the same place, to within `pixels`.
 inline void expectSamePicture(const scenes::Camera& a, const scenes::Camera& b, double pixels) {
     for (const glm::dvec3& pointCS :
          {glm::dvec3(0.0, 0.0, -3.0), glm::dvec3(1.0, -0.5, -4.0), glm::dvec3(-2.0, 1.5, -9.0)}) {
@@ -59,7 +59,7 @@ inline void expectSamePicture(const scenes::Camera& a, const scenes::Camera& b, 
     }
 }
 
-/// Cameras here and there. Through the pivot and back, rounding would move the eye of many of them.
+/// Various cameras. Conversion through the pivot and back would move the eye of many of them by rounding.
 inline std::vector<scenes::Camera> manyCameras() {
     std::vector<scenes::Camera> cameras;
     for (int i = 0; i < 50; ++i) {

@@ -6,7 +6,7 @@
 #include "tests/unit/viewer/Scenes.h"
 #include "viewer/session/Controls.h"
 
-/// A window whose picture is 400 x 400, and its input.
+/// A window with an image of 400 x 400 pixels, and its input.
 namespace tessera::viewer::test {
 
 inline constexpr PictureArea kArea{{0.0f, 0.0f}, {400.0f, 400.0f}};
@@ -28,7 +28,7 @@ inline InputEvent scroll(const glm::vec2& position, float steps, int modifiers =
             .position = position,
             .scroll = glm::vec2(0.0f, steps)};
 }
-/// `letter` is what the keyboard's layout has there.
+/// `letter` is the key's letter in the keyboard layout.
 inline InputEvent key(int code, int modifiers = 0, int letter = 0) {
     return {.kind = InputEvent::Kind::Key, .code = code, .down = true, .modifiers = modifiers, .letter = letter};
 }
@@ -38,7 +38,7 @@ inline void handle(Controls& controls, State& state, std::initializer_list<Input
     controls.handle(std::span(events.begin(), events.size()), state, area, claims);
 }
 
-/// A window whose scene has a light in the picture's middle and others out of view.
+/// A window whose scene has a light at the image's centre and others out of view.
 inline State withLightInTheMiddle(std::size_t index, std::size_t count) {
     scenes::Scene scene = roomWith(std::vector<scenes::Light>(count));
     const glm::dmat4& worldFromCamera = scene.cameras.front().worldFromCamera;
@@ -49,7 +49,7 @@ inline State withLightInTheMiddle(std::size_t index, std::size_t count) {
     return state;
 }
 
-/// What is selected after a button was pressed in the picture's middle.
+/// Returns the selected light after a press at the image's centre.
 inline int selectedByPress(State& state) {
     Controls controls;
     handle(controls, state, {button({200.0f, 200.0f}, true)});

@@ -7,7 +7,7 @@
 
 namespace tessera::viewer::test {
 
-/// A light that shines askew, with a size of every kind.
+/// A light with an oblique direction and sizes of every kind.
 inline scenes::Light askewLight(scenes::LightType type, const glm::dvec3& positionWS = glm::dvec3(0.0)) {
     scenes::Light light;
     light.type = type;
@@ -21,7 +21,7 @@ inline scenes::Light askewLight(scenes::LightType type, const glm::dvec3& positi
     return light;
 }
 
-/// A picture of 1000 x 1000 in perspective, and one by parallel rays.
+/// A perspective and an orthographic view of 1000 x 1000 pixels.
 inline std::vector<PictureView> twoViews(const glm::dvec3& eyeWS, const glm::dvec3& targetWS) {
     const glm::dvec2 size(1000.0, kHeightPixels);
     return {{perspective(eyeWS, targetWS), size}, {orthographic(eyeWS, targetWS, 1.5), size}};

@@ -12,17 +12,17 @@
 #include "tests/unit/viewer/Scenes.h"
 #include "viewer/panels/Frame.h"
 
-/// Panels without a window.
+/// A fixture for panels without a window.
 namespace tessera::viewer::test {
 
-/// A look at a view.
+/// A look that shows a debug view.
 inline Look lookAt(frame::DebugView view) {
     Look look;
     look.settings.view = view;
     return look;
 }
 
-/// A scene of all kinds of lights and materials, some of them beyond what the panels would set.
+/// A scene of all kinds of lights and materials, some of them beyond the panels' bounds.
 inline State unusualScene() {
     scenes::LoadOptions load;
     scenes::Scene scene = scenes::loadScene("room", load);
@@ -69,14 +69,14 @@ protected:
     }
     ~PanelTest() override { ImGui::DestroyContext(); }
 
-    /// One frame of the user interface in which nobody touches anything.
+    /// Runs one frame of the user interface without input.
     template <typename Draw>
     void frame(const Draw& draw) {
         ImGui::NewFrame();
         draw();
         ImGui::EndFrame();
     }
-    /// A panel in a window of its own, with all its rows.
+    /// Draws a panel in its own window, with all its rows.
     template <typename Panel>
     void show(const Panel& panel) {
         for (int i = 0; i < 3; ++i) { // a window is measured before it is laid out
@@ -88,14 +88,14 @@ protected:
             });
         }
     }
-    /// What a panel says, as the window could copy it.
+    /// Returns the text of a panel, as the window copies it.
     template <typename Panel>
     std::string textOf(const Panel& panel) {
         std::string text;
         show([&] { text = logged(panel); });
         return text;
     }
-    /// Presses the left button at a place of what is drawn, and lets it go.
+    /// Clicks the left button at a place while `draw` draws.
     template <typename Draw>
     static void click(const ImVec2& place, const Draw& draw) {
         ImGui::GetIO().MousePos = place;
@@ -108,12 +108,12 @@ protected:
     void clickPanel(const ImVec2& place, const Panel& panel) {
         click(place, [&] { show(panel); });
     }
-    /// Presses at the right ends of all sliders of a panel that is so high.
+    /// Clicks the right ends of all sliders of a panel of this height.
     template <typename Panel>
     void pressSliders(float heightPixels, const Panel& panel) {
         for (float y = 20.0f; y < heightPixels; y += 10.0f) {
             clickPanel({280.0f, y}, panel);
-            ImGui::ClosePopupsOverWindow(nullptr, false); // of a list that the press opened
+            ImGui::ClosePopupsOverWindow(nullptr, false); // closes a list that the click opened
         }
     }
     static bool isPopupOpen() {
@@ -124,14 +124,14 @@ protected:
             return (window->Flags & ImGuiWindowFlags_Tooltip) != 0 && window->Active;
         });
     }
-    /// The latest window whose name has this part; null where there is none.
+    /// Returns the latest window whose name contains this; null without one.
     static const ImGuiWindow* windowNamed(const char* part) {
         const ImGuiWindow* found = nullptr;
         for (const ImGuiWindow* window : ImGui::GetCurrentContext()->Windows)
             if (std::string(window->Name).find(part) != std::string::npos) found = window;
         return found;
     }
-    /// The pointer's shape at a place of what is drawn.
+    /// Returns the mouse cursor at a place.
     template <typename Draw>
     ImGuiMouseCursor cursorAt(const ImVec2& place, const Draw& draw) {
         ImGui::GetIO().MousePos = place;
@@ -143,7 +143,7 @@ protected:
             });
         return cursor;
     }
-    /// What the first window of the interface says.
+    /// Returns the text of the interface's first window.
     std::string firstWindowText(State& state, const Facts& facts) {
         std::string text;
         for (int i = 0; i < 3; ++i)
@@ -158,7 +158,7 @@ protected:
         ImGui::LogFinish(); // at the end of the first window
         return std::string("\n") + ImGui::GetClipboardText();
     }
-    /// Vertices of what is drawn over the picture.
+    /// Vertices drawn over the image.
     template <typename Draw>
     std::vector<ImDrawVert> overlay(const Draw& draw) {
         std::vector<ImDrawVert> vertices;
@@ -169,7 +169,7 @@ protected:
         });
         return vertices;
     }
-    /// Left and right end of what is drawn over the picture; empty where nothing is.
+    /// Left and right end of the vertices drawn over the image; empty without any.
     template <typename Draw>
     std::optional<std::pair<float, float>> overlaySpan(const Draw& draw) {
         std::optional<std::pair<float, float>> span;

@@ -61,12 +61,12 @@ inline void setIntensity(OpenScene& open, float intensity) {
     changeLight(open, 0, [&](scenes::Light& light) { light.intensity = intensity; });
 }
 
-/// Lets the camera come to rest.
+/// Advances until the camera is static.
 inline void settle(OpenScene& open) {
     open.rig().advance(kLongSeconds, kHeightPixels);
     open.applyRig();
 }
-/// Turns it by hand.
+/// Rotates the camera by hand.
 inline void turnCamera(OpenScene& open) {
     open.rig().rotate({120.0, 30.0}, kHeightPixels);
     settle(open);

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-/// A wall of 20 x 20 m that faces z, 10 m before the camera, and a floor so far below it.
+/// A wall of 20 x 20 m that faces z, 10 m before the camera, and a floor `belowMetres` below the camera.
 scenes::Scene wallAndFloor(float belowMetres) {
     scenes::Scene scene;
     scene.materials.emplace_back();

@@ -31,7 +31,7 @@ TEST(Bounded, aChannelThatWasNotEditedNeverChangesAlsoBeyondTheBounds) {
 }
 
 scenes::Material materialAtBounds(bool isMost) {
-    const float share = isMost ? 1.0f : 0.0f; // of what lies between 0 and 1
+    const float share = isMost ? 1.0f : 0.0f; // for members from 0 to 1
     scenes::Material material;
     material.baseColor = glm::vec4(share);
     material.specularColor = material.sheenColor = glm::vec3(share);

@@ -21,7 +21,7 @@ const std::vector<scenes::Camera>& allKinds() {
         perspective({1, 2, 8}, {0, 1, 0}, {0.4, 1, 0.1}, 100.0),          // rolled
         perspective({0, 9, 0}, {0, 0, 0}, {0.3, 0, -1}),                  // straight down
         perspective({0, -9, 0}, {0, 0, 0}, {1, 0, 0}),                    // straight up
-        perspective({0, 3, 0}, {0, 3, 5}, {0, -1, 0}),                    // head over heels
+        perspective({0, 3, 0}, {0, 3, 5}, {0, -1, 0}),                    // upside down
         perspective({5e5, 10, -3e5}, {5e5 + 1, 11, -3e5 + 2}, {0, 1, 0}), // far from the origin
         orthographic({3, 4, 5}, {0, 1, 0}, 2.5),
     };
@@ -35,7 +35,7 @@ TEST(CameraPose, aSceneCameraKeepsItsPictureThroughOrbitAndFlyAndBack) {
         const OrbitCamera orbit(pose, camera);
         const FlyCamera fly(orbit.pose(), camera, kBox);
         const OrbitCamera again(fly.pose(), camera);
-        // Far from the origin a position is good to 1e-10 m, which at 3 m is a ten-millionth of a pixel's hundredth.
+        // Far from the origin a position is precise to 1e-10 m, which at 3 m is 4e-8 pixels.
         const double pixels = glm::length(glm::dvec3(camera.worldFromCamera[3])) > 1e3 ? 1e-5 : kRoundingPixels;
         for (const CameraPose& one : {pose, orbit.pose(), fly.pose(), again.pose()})
             expectSamePicture(camera, cameraAt(one, camera), pixels);

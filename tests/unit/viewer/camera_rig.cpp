@@ -18,7 +18,7 @@ void settle(CameraRig& rig) {
     EXPECT_TRUE(rig.isAtRest());
 }
 
-/// Turns by this angle in steps as a hand makes them, about the pivot or on the spot.
+/// Rotates by this angle in small steps, as by hand, about the pivot or on the spot.
 void turn(CameraRig& rig, double degrees) {
     const double before = rig.pose().heading.yawRadians;
     while (glm::degrees(std::abs(rig.pose().heading.yawRadians - before)) < degrees) {

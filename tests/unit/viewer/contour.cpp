@@ -9,7 +9,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// A picture of the pixels that a test holds to be inside.
+/// Contours of an image whose inside is where `isInside` holds.
 template <typename IsInside>
 std::vector<Contour> contoursWhere(glm::ivec2 size, const IsInside& isInside) {
     std::vector<std::uint8_t> pixels;
@@ -90,7 +90,7 @@ TEST(Contours, ofTooManyTheLongestStay) {
     EXPECT_EQ(glm::distance(contours.at(0)[0], contours.at(0)[1]), 400.0f);
 }
 
-/// Of a comb of so many columns, two a tooth and two a gap.
+/// Expects a comb of this many columns to keep its width; teeth and gaps are two columns each.
 void expectCombStays(int columns) {
     constexpr int kDeep = 8;
     const auto comb = [](int x, int y) { return y >= 1 && y < 3 + (x / 2 % 2) * kDeep; };
@@ -104,8 +104,8 @@ void expectCombStays(int columns) {
     EXPECT_LE(points, kMostContourPoints);
 }
 
-/// The farthest point of a comb is the first tooth, then the next one, and so on: whoever looks at all that is left
-/// each time looks at 2e10 points here, for minutes. Linear work takes a few hundredths of a second.
+/// The farthest point of a comb is the first tooth, then the next one, and so on. Visiting all remaining points each
+/// time would visit 2e10 points, for minutes. Linear work takes a few hundredths of a second.
 TEST(Contours, theLongestStayAndTheTimeGrowsWithThePointsWhateverTheyAre) {
     const std::clock_t begin = std::clock();
     for (const int columns : {4200, 200'000}) expectCombStays(columns);

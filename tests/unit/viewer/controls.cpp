@@ -45,7 +45,7 @@ TEST(Controls, ctrlAndTheWheelMagnifyPixelsAboutThePointerAndDragsMoveThePicture
     };
     EXPECT_TRUE(selectedFigure(state, kArea));
     wheel(1.0f, kControl);
-    wheel(1.0f, 0); // goes on with it
+    wheel(1.0f, 0); // continues the magnification
     EXPECT_EQ(state.magnification.times, 4);
     EXPECT_EQ(placeAt(state, kArea, pointer), glm::vec2(0.25f, 0.75f)) << "the pixel under the pointer stays there";
     EXPECT_EQ(pointOf(state, kArea, glm::vec2(0.25f, 0.75f)), pointer);
@@ -129,7 +129,7 @@ TEST(Controls, shiftAndTheRightButtonTurnTheEnvironmentAndNothingWhereThereIsNon
     state.open->takeEnvironment(std::move(chosen));
     EXPECT_EQ(dragged(0), 0.0f);
     EXPECT_EQ(said, "");
-    EXPECT_EQ(dragged(kShift), 45.0f); // a quarter of the picture's height
+    EXPECT_EQ(dragged(kShift), 45.0f); // a quarter of the image's height
     EXPECT_EQ(said, "Environment 45.0\xc2\xb0");
     EXPECT_EQ(*state.open->history().undoText(), "turn the environment");
     EXPECT_EQ(dragged(kShift), 90.0f);
@@ -188,7 +188,7 @@ TEST(Controls, theEdgeOfThePanelsIsDraggedWithinBounds) {
         handle(controls, state, {moveTo({x, 200.0f})}, {}, kBeside);
         return state.panelWidth;
     };
-    press(310.0f, true); // in the picture
+    press(310.0f, true); // within the image
     EXPECT_EQ(widthAt(400.0f), kUsualPanelWidth);
     press(400.0f, false);
     press(301.0f, true);

@@ -1,4 +1,4 @@
-// Lights that are selected and dragged in the picture.
+// Selecting and dragging lights in the image.
 #include <algorithm>
 #include <vector>
 
@@ -19,14 +19,14 @@ TEST(ControlsOfLights, aLightIsGrabbedByItsMarkerAndNeverWithoutOne) {
     EXPECT_EQ(selectedByPress(shown), int(kMostMarkers) - 1);
     State beyond = withLightInTheMiddle(kMostMarkers, kMostMarkers + 2);
     EXPECT_EQ(selectedByPress(beyond), scenes::kNone);
-    beyond.selectedLight = int(kMostMarkers); // which is marked whatever its number
+    beyond.selectedLight = int(kMostMarkers); // a selected light is always marked
     EXPECT_EQ(selectedByPress(beyond), int(kMostMarkers));
     State hidden = withLightInTheMiddle(0, 1);
     hidden.showsMarkers = false;
     EXPECT_EQ(selectedByPress(hidden), scenes::kNone);
 }
 
-/// The window with a rectangle in the picture's middle that is selected: 200 wide in the picture, seen from its edge.
+/// A window with a selected rectangle at the image's centre, 200 pixels wide and viewed edge-on.
 State withRectangleSelected() {
     State state = withLightInTheMiddle(0, 1);
     state.selectedLight = 0;

@@ -1,4 +1,4 @@
-// The dialogs of questions and of files, laid out without a window.
+// Dialogs of questions and of files, laid out without a window.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -83,7 +83,7 @@ TEST_F(Dialogs, theDialogOfFilesHearsEveryKeyHoweverFewFramesThereAreBetweenThem
         push(test::kEnterKey, false);
         if (withControl) push(test::kControlKey, false);
     }
-    int most = 0; // frames that keys waited
+    int most = 0; // most frames in a row that keys waited
     for (int i = 0, waited = 0; i < 100 && state.files; ++i) {
         waited = state.keysWait() ? waited + 1 : 0;
         most = std::max(most, waited);
@@ -120,7 +120,7 @@ TEST_F(Dialogs, keysDoNotWaitForAFieldThatNeverListens) {
     EXPECT_FALSE(state.keysWait());
     state.files.emplace(FileDialog::Purpose::Open, "/");
     EXPECT_TRUE(state.keysWait());
-    ImGui::GetIO().MouseDown[0] = true; // something is held all the time
+    ImGui::GetIO().MouseDown[0] = true; // a button is held all the time
     for (int i = 0; i < FileDialog::kMostWaits; ++i) frame([&] { fileDialog(state, 1.0f); });
     EXPECT_FALSE(state.keysWait());
     state.question = Question{};

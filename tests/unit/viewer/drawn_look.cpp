@@ -9,7 +9,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// A dim lamp, a brighter one, and one that is brighter still and off, above what the camera looks at.
+/// A dim lamp, a brighter one, and a still brighter one that is off, above the camera's target.
 State lamps() {
     scenes::Scene scene = scenes::loadScene("room");
     scene.lights.assign(3, {});
@@ -74,7 +74,7 @@ TEST(DrawnLook, everyViewHasALineOfMeaning) {
     for (const frame::DebugViewInfo& info : frame::debugViewTable()) {
         const std::string meaning = viewMeaning(info.view);
         EXPECT_TRUE(meanings.insert(meaning).second) << info.name << " means the same as another: " << meaning;
-        // Those of one light are of the selected one, or the brightest, not of the one that the command line chooses.
+        // Views of one light show the selected or the brightest one, not the light that the command line chooses.
         const bool namesPanel = meaning.find("the panel Lights selects another") != std::string::npos;
         EXPECT_EQ(namesPanel, showsTermOfOne(info.view)) << meaning;
         const bool saysDark = viewMeaning(info.view, false).find("no light is on") != std::string::npos;

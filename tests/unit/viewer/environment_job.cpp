@@ -20,7 +20,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Nothing that was filtered is kept yet.
+/// An empty cache of filtered environments.
 class EmptyCache {
 public:
     bool isEmpty() const {
@@ -41,7 +41,7 @@ protected:
         EXPECT_EQ(job_.choice(), name);
         std::unique_lock lock(mutex_);
         EXPECT_TRUE(changed_.wait_for(lock, std::chrono::minutes(1), [this] { return results_ > taken_; }));
-        ++taken_; // what is dropped is not told of
+        ++taken_; // dropped results are not reported
         EXPECT_TRUE(job_.hasResult());
         std::optional<ChosenEnvironment> result = job_.take();
         EXPECT_FALSE(job_.hasResult());
@@ -49,7 +49,7 @@ protected:
         return result.value_or(ChosenEnvironment());
     }
     EnvironmentJob& job() { return job_; }
-    std::optional<EnvironmentShare> shareAtEnd() const { return shareAtEnd_; } ///< when the latest result was there
+    std::optional<EnvironmentShare> shareAtEnd() const { return shareAtEnd_; } ///< at the latest result
 
 private:
     std::mutex mutex_;
@@ -96,7 +96,7 @@ TEST(EnvironmentProgress, isTheMostThatWasToldAndFilteringComesAfterComputing) {
     EnvironmentProgress progress;
     EXPECT_FALSE(progress.latest());
     progress.tell({false, 0.5});
-    progress.tell({false, 0.25}); // of another thread
+    progress.tell({false, 0.25}); // from another thread
     EXPECT_EQ(progress.latest(), (EnvironmentShare{false, 0.5}));
     progress.tell({false, 1.0});
     progress.tell({true, 0.0});
@@ -112,7 +112,7 @@ TEST_F(EnvironmentJobTest, ofChoicesInARowTheLastIsTaken) {
     job().start("studio");
     job().start("sky");
     EXPECT_EQ(chosen("none").name, "none");
-    // One that is given up has no result, though its name is chosen again.
+    // A discarded job has no result, although its name is chosen again.
     job().start("studio");
     job().discard();
     EXPECT_EQ(job().choice(), "");
@@ -133,7 +133,7 @@ TEST_F(EnvironmentJobTest, whatIsSupersededIsNotFilteredToItsEnd) {
                 std::this_thread::sleep_for(std::chrono::milliseconds(10));
             EXPECT_EQ(job->take().value().name, "none");
         } else {
-            job.reset(); // as where the window is closed
+            job.reset(); // as when the window is closed
         }
         EXPECT_TRUE(cache.isEmpty()) << "what was filtered to its end is kept";
     }
@@ -161,7 +161,7 @@ TEST_F(EnvironmentJobTest, whatWasChosenIsAnEdit) {
 }
 
 TEST_F(EnvironmentJobTest, aSuppliedStudioChosenAgainStandsAroundTheCameraAsBefore) {
-    const tessera::test::TempFolder folder; // a flat model is seen face-on, so the studio is turned
+    const tessera::test::TempFolder folder; // a flat model is viewed face-on, so the studio is rotated
     const std::string file = folder.write("triangle.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").string();
     OpenScene open(file, {}, scenes::loadScene(file), scenes::SceneOrigin());
     const float supplied = open.scene().environment.value().rotationDegrees;

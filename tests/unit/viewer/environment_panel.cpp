@@ -1,4 +1,4 @@
-// The panel of the environment, with and without one.
+// The environment panel, with and without an environment.
 #include "scenes/Load.h"
 #include "tests/unit/viewer/PanelTest.h"
 #include "viewer/panels/Panels.h"
@@ -53,7 +53,7 @@ TEST_F(EnvironmentPanel, aLoadThatEscCancelsGoesBeforeThePictureThatItWillReplac
     EXPECT_EQ(facts.told(), facts.progress);
     facts.background = {"Loading sky", {}, true};
     EXPECT_EQ(facts.told(), facts.background);
-    facts.background->canCancel = false; // a scene
+    facts.background->canCancel = false; // like a scene
     EXPECT_EQ(facts.told(), facts.progress);
     facts.progress.reset();
     EXPECT_EQ(facts.told(), facts.background);
@@ -70,7 +70,7 @@ TEST_F(EnvironmentPanel, offersFilesThatWereUsedAndTheDialogForOthers) {
         environmentPanel(state, {});
     };
     EXPECT_NE(textOf(panel).find("sunset.hdr"), std::string::npos);
-    // It is no built-in one though it is called so.
+    // A file, although its name is that of a built-in environment.
     scenes::Scene other = scenes::loadScene("room");
     other.environment.emplace().source = "/maps/b/studio";
     noteMap(state.maps, other);

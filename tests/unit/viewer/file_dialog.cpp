@@ -17,7 +17,7 @@ namespace {
 using Purpose = FileDialog::Purpose;
 using FileNames = std::vector<std::string>;
 
-/// A folder with something of all kinds.
+/// A folder with entries of all kinds.
 class Files : public testing::Test {
 protected:
     Files() {
@@ -28,7 +28,7 @@ protected:
     FileDialog open() const { return {Purpose::Open, folder_.path()}; }
     FileDialog save(const std::string& name) const { return {Purpose::Save, folder_.path(), name}; }
     std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
-    /// What is typed is not taken, and the dialog says why.
+    /// Expects typed text to be refused with this fault.
     static void expectFault(FileDialog& dialog, const std::string& typed, const std::string& fault) {
         dialog.type(typed);
         EXPECT_EQ(dialog.accept(), std::nullopt);
@@ -105,7 +105,7 @@ TEST_F(Files, tabLengthensTheTextAsFarAsNamesAgree) {
     expectCompleted(dialog, "models/other.gltf");
     dialog.type("nothing");
     expectCompleted(dialog, "nothing");
-    // Letters are not cut into bytes.
+    // Completion keeps letters of several bytes whole.
     for (const char* name : {"x\xc3\xa4.glb", "x\xc3\xb6.glb"}) folder_.write(name, "");
     dialog.type("x");
     expectCompleted(dialog, "x");
@@ -134,7 +134,7 @@ TEST_F(Files, whatCannotBeOpenedOrReadTellsWhy) {
     dialog.goTo(folder_.path() / "nowhere");
     EXPECT_EQ(dialog.fault(), at("nowhere") + " cannot be read: No such file or directory");
     EXPECT_EQ(fileNamesOf(dialog), FileNames{"../"}) << "one gets back";
-    if (::geteuid() == 0) return; // whom no folder keeps out
+    if (::geteuid() == 0) return; // root may read any folder
     std::filesystem::permissions(folder_.path() / "maps", std::filesystem::perms::none);
     dialog.goTo(folder_.path() / "maps");
     EXPECT_EQ(dialog.fault(), at("maps") + " cannot be read: Permission denied");

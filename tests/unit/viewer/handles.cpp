@@ -10,7 +10,7 @@ namespace {
 
 class Handles : public test::PanelTest {
 protected:
-    /// A rectangle ahead of the camera that faces down in the picture.
+    /// A rectangle ahead of the camera that faces down in the image.
     Handles() {
         scenes::Light light;
         const glm::dmat4 worldFromCamera = scenes::loadScene("room").cameras.front().worldFromCamera;
@@ -28,7 +28,7 @@ protected:
     auto span() {
         return overlaySpan([&] { drawHandles(state_, area(state_)); });
     }
-    /// The pointer's shape at a place of the picture.
+    /// Returns the mouse cursor at a place in the image.
     ImGuiMouseCursor cursorAt(const glm::dvec2& place) {
         const PictureArea at = area(state_);
         return PanelTest::cursorAt({at.corner.x + float(place.x), at.corner.y + float(place.y)},
@@ -48,7 +48,7 @@ TEST_F(Handles, areDrawnOfTheSelectedLightAlone) {
 
 TEST_F(Handles, stayInThePictureHoweverLargeTheLightIs) {
     const PictureArea at = area(state_);
-    constexpr float kHalfLine = 4.0f; // of the line's width, with its smooth rim
+    constexpr float kHalfLine = 4.0f; // half of the line's width, with its smooth rim
     for (const float metres : {10.0f, 1e6f}) {
         change([&](scenes::Light& light) { light.widthMetres = light.heightMetres = metres; }); // behind the camera
         const auto drawn = span();
@@ -126,7 +126,7 @@ TEST_F(Handles, wordsBesideThePointerNameTheAxisOfAnArm) {
 }
 
 TEST_F(Handles, noPointerIsThePlainOneWhateverTheWay) {
-    // Turned about the line of sight, the width goes through all ways. GLFW 3.3 has no slanting arrows.
+    // Rotated about the line of sight, the width takes all directions. GLFW 3.3 has no diagonal arrows.
     const glm::dmat4& worldFromCamera = state_.open->scene().cameras[0].worldFromCamera;
     const glm::dvec3 rightWS(worldFromCamera[0]), upWS(worldFromCamera[1]);
     constexpr ImGuiMouseCursor kWithoutSlants[] = {ImGuiMouseCursor_ResizeEW, ImGuiMouseCursor_Hand,
@@ -156,7 +156,7 @@ TEST_F(Handles, theSelectedMaterialIsOutlinedWhileAPanelShowsIt) {
     state_.selectedMaterial = 1;
     state_.showsMaterial = true;
     EXPECT_FALSE(outline()) << "it is not found yet";
-    // Of a picture of half the size.
+    // The outline is of an image of half the size.
     facts.materialOutline = {1, glm::ivec2(at.size) / 2, {{{10.0f, 20.0f}, {60.0f, 20.0f}, {60.0f, 40.0f}}}};
     const auto drawn = outline();
     ASSERT_TRUE(drawn);

@@ -35,12 +35,12 @@ void redoAll(OpenScene& open) {
     }
 }
 
-/// One of all kinds of edits and jumps, as the window makes them.
+/// Random edits and jumps of all kinds, as the window makes them.
 class RandomEdits {
 public:
     explicit RandomEdits(OpenScene& open, std::uint64_t seed = 1) : open_(open), engine_(seed) {}
 
-    /// The same, and more: how lights live, several lights at once, parameters of a hook. Meanwhile clips go on.
+    /// Also edits light animation, several lights at once and parameters of a hook. Meanwhile clips play.
     void editOrPlay() {
         const Lights& lights = open_.scene().lights;
         switch (number(8)) {
@@ -121,7 +121,7 @@ private:
         for (int i = 0; i < 3; ++i) test::changeLight(open_, index, move, Gesture::GoesOn);
         open_.endGesture();
     }
-    /// Where there is one.
+    /// Changes the environment, if there is one.
     void turnEnvironment() {
         const bool turns = number(2) == 0;
         for (int i = 0; i < 3; ++i) {
@@ -226,7 +226,7 @@ TEST(History, editsUndoneInAnyOrderWithNewOnesLeadBackToo) {
     EXPECT_FALSE(open->isEdited());
 }
 
-/// A model of two clips, of which "shine" changes its material and both carry a light, with a hook of two parameters.
+/// A model with two clips that both move a light; "shine" also changes the material. Has a hook of two parameters.
 scenes::Scene livelyScene() {
     scenes::Scene scene = scenes::riggedScene();
     scene.rig.cameras.clear();
@@ -296,7 +296,7 @@ TEST(History, oneDragIsOneStepAndTheNextAnother) {
     EXPECT_TRUE(open->scene().lights[0] == before);
     open->redo();
     EXPECT_EQ(open->scene().lights[0].intensity, before.intensity + 5.0f) << "the end of the drag, not its beginning";
-    // What is the same already is no step, nor are several elements one.
+    // An edit without change is no step, and edits of several elements are several steps.
     open->changeLight(0, open->scene().lights[0]);
     EXPECT_EQ(open->history().redoable(), 1u);
     open->changeLight(0, before, Gesture::GoesOn);

@@ -111,7 +111,7 @@ TEST(InputQueue, aModifierChangesInAFrameOnlyBeforeWhatHeedsIt) {
 }
 
 TEST(InputQueue, keysThatWaitKeepTheirOrderAndWhatCameBeforeThemDoesNot) {
-    InputQueue queue = queueOf({at(Kind::Key, 1.0f, kControlKey, false), // of a press that did not wait
+    InputQueue queue = queueOf({at(Kind::Key, 1.0f, kControlKey, false), // its press did not wait
                                 at(Kind::Character, 1.0f, 'a'), at(Kind::Key, 1.0f, kEnterKey), at(Kind::Move, 2.0f)});
     const std::vector<InputEvent> before = queue.takeFrame(true);
     ASSERT_EQ(before.size(), 1u);

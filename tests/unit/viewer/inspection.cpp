@@ -130,8 +130,8 @@ TEST(Inspection, theShadingNormalLiesBetweenTheVerticesNormalsUnlessAMapReplaces
     const auto inspected = [&] {
         return surfaceAt(scene, orthographic({0, 0, 5}, {0, 0, 0}, 2.0), {100, 100}, {62, 30}, 0.0).value();
     };
-    constexpr double kRounding = 1e-7;                // of the vertices' normals, which are fp32
-    const double across = (62.5 - 50.0) / 50.0 * 2.0; // of the pixel's centre, metres
+    constexpr double kRounding = 1e-7;                // rounding of the vertices' normals to fp32
+    const double across = (62.5 - 50.0) / 50.0 * 2.0; // offset of the pixel's centre, metres
     EXPECT_LT(glm::distance(inspected().shadingNormalWS, glm::normalize(glm::dvec3(0.6 * across, 0.0, 0.8))),
               kRounding);
     EXPECT_LT(glm::distance(inspected().faceNormalWS, glm::dvec3(0.0, 0.0, 1.0)), 1e-9);

@@ -19,7 +19,7 @@ TEST(Keys, everyNamedKeyHasADescription) {
         EXPECT_EQ(*binding.name == '\0', *binding.meaning == '\0') << binding.name;
         ASSERT_NE(binding.act, nullptr);
         State state;
-        binding.act(state); // without a scene nothing must go wrong
+        binding.act(state); // must work without a scene
     }
 }
 

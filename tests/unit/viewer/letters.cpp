@@ -26,7 +26,7 @@ TEST(Letters, areThoseOfWesternEuropeAndWhateverOccursEachOnce) {
     EXPECT_EQ(letters.ranges(), (Ranges{0x20, 0xff, 0x416, 0x417, 0x2010, 0x2026, 0}));
     letters.note("\xd0\x97");
     EXPECT_FALSE(letters.takeNew());
-    letters.note("\xc4\x80"); // U+0100 goes on where Latin-1 ends
+    letters.note("\xc4\x80"); // U+0100 continues the range of Latin-1
     EXPECT_EQ(letters.ranges().at(1), 0x100);
 }
 
@@ -50,7 +50,7 @@ TEST(Letters, ofChineseJapaneseAndKoreanNeedAnotherFont) {
 
 class Fonts : public test::PanelTest {
 protected:
-    /// Whether the interface has a letter of its own, and no sign that it lacks one.
+    /// Returns whether the interface's fonts have this letter without a fallback.
     static bool has(ImWchar letter) {
         ImGui::GetIO().Fonts->Build();
         return std::ranges::all_of(ImGui::GetIO().Fonts->Fonts,

@@ -9,7 +9,7 @@ namespace {
 
 constexpr glm::dvec2 kDragPicture{1000.0, test::kHeightPixels};
 
-/// Away from the origin.
+/// A light away from the origin.
 scenes::Light draggedLight(scenes::LightType type) {
     return test::askewLight(type, {0.4, 1.2, -0.3});
 }
@@ -18,7 +18,7 @@ std::vector<PictureView> dragViews() {
     return test::twoViews({1.0, 1.9, 4.0}, {0.3, 1.0, 0.0});
 }
 
-/// A light whose handle was dragged with the pointer a little beside it.
+/// Returns a light after a drag of its handle, with the pointer slightly beside it.
 scenes::Light draggedBy(const scenes::Light& light, const PictureView& view, const LightHandle& handle,
                         const glm::dvec2& way, bool isOneSided = false) {
     const glm::dvec2 pointer = handle.place + glm::dvec2(3.0, -2.0);
@@ -29,7 +29,7 @@ scenes::Light draggedBy(const scenes::Light& light, const PictureView& view, con
     return changed;
 }
 
-/// Where a handle of that number is after an edit.
+/// Returns the handle of this number after an edit.
 LightHandle sameHandle(const scenes::Light& light, const PictureView& view, int number) {
     const LightFigure figure = lightFigure(light, view, 1.0);
     const auto found = std::ranges::find(figure.handles, number, &LightHandle::number);
@@ -37,7 +37,7 @@ LightHandle sameHandle(const scenes::Light& light, const PictureView& view, int 
 }
 
 TEST(LightDrag, aLineAndAnAxisAreNearestWhereTheirCommonNormalMeetsTheAxis) {
-    // The axis of height 1 along x, the line of height 3 along z over x = 2.5.
+    // The axis is along x at height 1, the line along z at height 3 and x = 2.5.
     const SightLine line{{2.5, 3.0, 7.0}, {0.0, 0.0, -1.0}};
     const glm::dvec3 middleWS(0.5, 1.0, 0.0), axisWS(1.0, 0.0, 0.0);
     EXPECT_NEAR(metresAlongAxis(line, middleWS, axisWS).value(), 2.0, 1e-12);
@@ -56,7 +56,7 @@ TEST(LightDrag, aLineMeetsASphereTwiceOrComesNearestToItsRim) {
     const SpherePoint beside = pointOnSphere(line, middleWS, 2.0, false);
     EXPECT_TRUE(beside.isBeside);
     EXPECT_LT(glm::distance(beside.directionWS, glm::dvec3(0.0, 1.0, 0.0)), 1e-12);
-    // From inside there is one side only.
+    // From inside there is only one side.
     const SpherePoint inside = pointOnSphere({{1.0, 3.0, 0.0}, {0.0, 0.0, -1.0}}, middleWS, 5.0, false);
     EXPECT_LT(glm::distance(inside.directionWS, glm::dvec3(0.0, 0.6, -0.8)), 1e-12);
 }
@@ -72,13 +72,13 @@ TEST(LightDrag, everyHandleOfAShapeGoesWithThePointerAndBack) {
                 const scenes::Light larger = draggedBy(light, view, handle, way);
                 EXPECT_GT(larger.*handle.parameter->member, light.*handle.parameter->member);
                 EXPECT_EQ(larger.positionWS, light.positionWS);
-                // A rim's handle is where lines of sight touch, which turns a little as the radius grows.
+                // A round outline's handle is where lines of sight touch it, which turns slightly as the radius grows.
                 const double pixels = handle.isRound ? 3.0 : 0.01;
                 EXPECT_LT(glm::distance(sameHandle(larger, view, handle.number).truePlace, handle.truePlace + way),
                           pixels);
                 const scenes::Light back = draggedBy(light, view, handle, {0.0, 0.0});
                 EXPECT_NEAR(back.*handle.parameter->member, light.*handle.parameter->member, 1e-6);
-                // Far over the middle nothing is left.
+                // Dragging far past the middle gives 0.
                 if (!handle.isRound) {
                     EXPECT_EQ(draggedBy(light, view, handle, -250.0 * handle.way).*handle.parameter->member, 0.0f);
                 }
@@ -121,15 +121,15 @@ TEST(LightDrag, aCornerGoesWithThePointerInItsPlaneAndNotWhereItMakesNoOutline) 
             SCOPED_TRACE(handle.corner);
             const glm::dvec2 way(12.0, -15.0);
             const scenes::Light moved = draggedBy(light, view, handle, way);
-            scenes::Light expected = light; // nothing but that corner
+            scenes::Light expected = light; // only that corner changes
             expected.corners.metres[std::size_t(handle.corner)] = moved.corners.metres[std::size_t(handle.corner)];
             EXPECT_TRUE(moved == expected);
-            // Of 1000 pixels; the corner is rounded to single precision.
+            // In pixels of 1000; the corner is rounded to single precision.
             EXPECT_LT(glm::distance(sameHandle(moved, view, handle.number).truePlace, handle.truePlace + way), 0.01);
             const scenes::Light back = draggedBy(light, view, handle, {0.0, 0.0});
             const std::size_t i = std::size_t(handle.corner);
             EXPECT_LT(glm::distance(back.corners.metres[i], light.corners.metres[i]), 1e-6f);
-            // Beyond the edge from the next corner to the opposite one, which the edge before it would cross.
+            // Beyond the edge between the next corner and the opposite one, so that edges would cross.
             const auto placeOf = [&](int number) { return sameHandle(light, view, number % 4).truePlace; };
             const glm::dvec2 middle = view.placeOf(light.positionWS).value();
             const glm::dvec2 edge = 0.5 * (placeOf(handle.number + 1) + placeOf(handle.number + 2));
@@ -140,7 +140,7 @@ TEST(LightDrag, aCornerGoesWithThePointerInItsPlaneAndNotWhereItMakesNoOutline) 
         }
 }
 
-/// Of 5 m to the eye a hundred times what doubles round to, over the square of the sine of 12 degrees.
+/// A hundred roundings of double precision at 5 m to the eye, over the square of the sine of 12 degrees.
 constexpr double kArmRoundingMetres = 3e-12;
 
 TEST(LightDrag, anArmMovesItsLightAlongItsAxisAlone) {
@@ -156,14 +156,14 @@ TEST(LightDrag, anArmMovesItsLightAlongItsAxisAlone) {
                 for (const bool isOneSided : {false, true}) {
                     const scenes::Light moved = draggedBy(light, view, handle, way, isOneSided);
                     EXPECT_GT(moved.positionWS[handle.arm], light.positionWS[handle.arm]);
-                    scenes::Light expected = light; // nothing but that coordinate, to the last bit
+                    scenes::Light expected = light; // only that coordinate changes, to the last bit
                     expected.positionWS[handle.arm] = moved.positionWS[handle.arm];
                     EXPECT_TRUE(moved == expected);
                     const glm::dvec3 endWS = handle.positionWS + moved.positionWS - light.positionWS;
-                    // Rounding, of 1000 pixels.
+                    // Rounding, in pixels of 1000.
                     EXPECT_LT(glm::distance(view.placeOf(endWS).value(), handle.truePlace + way), 1e-4);
                 }
-                // Across its way it goes as far as the nearest point of its axis.
+                // A drag across its direction goes to the nearest point of its axis.
                 const glm::dvec2 across(-handle.way.y, handle.way.x);
                 const scenes::Light beside = draggedBy(light, view, handle, way + 5.0 * across);
                 scenes::Light expected = light;
@@ -219,7 +219,7 @@ TEST(LightDrag, aDirectionGoesWithThePointerAndOverTheRimToTheOtherSide) {
             EXPECT_LT(glm::distance(view.placeOf(tipWS).value(), there), 1e-6);
             drag.drag(turned, 0.0, view, handle->place, false);
             EXPECT_LT(glm::distance(turned.directionWS, light.directionWS), 1e-9);
-            // Far away it lies on the rim, and back at its place on the other side.
+            // Dragged far away it is on the rim; dragged back it is on the other side.
             const glm::dvec2 middle = view.placeOf(figure.middleWS).value();
             drag.drag(turned, 0.0, view, middle + 50.0 * (handle->place - middle), false);
             const auto isFar = [&](const glm::dvec3& directionWS) {
@@ -242,7 +242,7 @@ TEST(LightDrag, aDirectionAtTheViewerIsTurnedTheWayThePointerGoes) {
             const auto handle = std::ranges::find(figure.handles, true, &LightHandle::turns);
             ASSERT_NE(handle, figure.handles.end());
             scenes::Light turned = light;
-            LightDrag drag(light, figure, *handle, view, handle->place); // which is beside its true place
+            LightDrag drag(light, figure, *handle, view, handle->place); // beside its true place
             drag.drag(turned, 0.0, view, handle->place, false);
             EXPECT_LT(glm::distance(turned.directionWS, light.directionWS), 1e-9) << "the pointer has not moved";
             const glm::dvec2 way(30.0, -10.0);

@@ -41,7 +41,7 @@ TEST(LightFigure, everyTypeHasTheHandlesOfItsShapeItsDirectionAndItsPosition) {
             if (type.hasCorners()) {
                 EXPECT_EQ(figure.outlinesWS.at(0).size(), 5u) << "its corners, and the first again";
             }
-            // A light that shines from an area shows all its measures.
+            // An area light shows all its measures.
             for (const scenes::LightParameter& parameter : type.parameters)
                 if (type.isArea) {
                     EXPECT_EQ(std::ranges::count(figure.handles, &parameter, &LightHandle::parameter), 2)
@@ -138,7 +138,7 @@ TEST(LightFigure, theRangeOfALightWithOneIsASphereOrASpotsCone) {
                     }
                 }
         }
-    // An eye that is inside sees a circle on the level of the light.
+    // An eye inside the range gets a circle at the height of the light.
     scenes::Light around = askewLight(scenes::LightType::Point);
     around.rangeMetres = 100.0f;
     const LightFigure figure = lightFigure(around, twoViews()[0], 1.0);
@@ -172,7 +172,7 @@ TEST(LightFigure, aDirectionTowardsTheViewerOrAwayIsTakenBesideTheMarker) {
                 const auto handle = std::ranges::find(figure.handles, true, &LightHandle::turns);
                 ASSERT_NE(handle, figure.handles.end());
                 EXPECT_LT(glm::distance(handle->truePlace, marker), 1e-6);
-                // A press takes what is nearest within 9, of all handles and the marker.
+                // A press takes the nearest handle or marker within 9 units.
                 EXPECT_GT(glm::distance(handle->place, marker), 18.0);
                 for (const LightHandle& other : figure.handles)
                     if (!other.turns()) {
@@ -187,7 +187,7 @@ TEST(LightFigure, theArmOfADirectionDoesNotReachTheViewerInSmallPictures) {
         const PictureView view(test::perspective({0.0, 0.0, 3.0}, {0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, 120.0),
                                {sizeUnits, sizeUnits});
         scenes::Light light = askewLight(scenes::LightType::Spot);
-        light.directionWS = {0.0, 0.0, 1.0}; // at the viewer
+        light.directionWS = {0.0, 0.0, 1.0}; // towards the viewer
         for (const double scale : {1.0, 2.0}) {
             const LightFigure figure = lightFigure(light, view, scale);
             const double armMetres = glm::distance(figure.outlinesWS.back().front(), figure.outlinesWS.back().back());
@@ -201,11 +201,11 @@ TEST(LightFigure, whatCannotBeDraggedHasNoHandle) {
     scenes::Light light = askewLight(scenes::LightType::Rectangle);
     light.directionWS = {0.0, -1.0, 0.0};
     light.alongWS = {1.0, 0.0, 0.0};
-    // Along its width.
+    // Viewed along its width.
     const PictureView along({test::perspective({5.0, 0.0, 0.0}, {0.0, 0.0, 0.0})}, kFigurePicture);
     for (const LightHandle& handle : lightFigure(light, along, 1.0).handles)
         EXPECT_TRUE(handle.parameter == nullptr || handle.parameter->member == &scenes::Light::heightMetres);
-    // Out of the picture nothing can be taken.
+    // No handle is offered outside the image.
     scenes::Light wide = light;
     wide.directionWS = twoViews()[0].towardsViewerWS(wide.positionWS);
     wide.alongWS = twoViews()[0].rightWS();
@@ -214,7 +214,7 @@ TEST(LightFigure, whatCannotBeDraggedHasNoHandle) {
         EXPECT_TRUE(handle.turns() || handle.moves());
     const PictureView away({test::perspective({5.0, 0.0, 0.0}, {9.0, 0.0, 0.0})}, kFigurePicture);
     EXPECT_TRUE(lightFigure(light, away, 1.0).handles.empty());
-    // From inside nothing is seen of a sphere's outline.
+    // From inside, a sphere's outline is not visible.
     scenes::Light around = askewLight(scenes::LightType::Sphere);
     around.radiusMetres = 6.0f;
     const LightFigure inside = lightFigure(around, along, 1.0);
@@ -223,7 +223,7 @@ TEST(LightFigure, whatCannotBeDraggedHasNoHandle) {
 }
 
 TEST(LightFigure, noHandleLiesOnAnotherWhateverTheShapesSizeAndTurn) {
-    // Radii and sides from less than a pixel to more than the arm of a direction, and directions all around.
+    // Radii and sides from below a pixel to more than the length of a direction's arm, and directions all around.
     for (const PictureView& view : twoViews())
         for (const scenes::LightTypeInfo& type : scenes::lightTypes())
             for (double metres = 0.001; metres < 1.0; metres *= 1.13)
@@ -239,7 +239,7 @@ TEST(LightFigure, noHandleLiesOnAnotherWhateverTheShapesSizeAndTurn) {
                     for (std::size_t i = 0; i < light.corners.count; ++i) light.corners.metres[i] *= float(metres);
                     const std::vector<LightHandle> handles = lightFigure(light, view, 1.0).handles;
                     for (std::size_t i = 0; i < handles.size(); ++i)
-                        for (std::size_t other = 0; other < i; ++other) // a press takes what lies within 9
+                        for (std::size_t other = 0; other < i; ++other) // a press takes handles within 9
                             ASSERT_GT(glm::distance(handles[i].place, handles[other].place), 18.0)
                                 << handles[i].number << " and " << handles[other].number;
                 }
@@ -266,7 +266,7 @@ TEST(LightFigure, aPolygonHasAHandleAtEachCornerUnlessItIsSeenFromItsEdge) {
         EXPECT_TRUE(handle.turns() || handle.moves());
 }
 
-/// The arm along an axis, if there is one.
+/// Returns the arm along an axis; null without one.
 const LightHandle* armOf(const LightFigure& figure, int axis) {
     const auto found = std::ranges::find(figure.handles, axis, &LightHandle::arm);
     return found == figure.handles.end() ? nullptr : &*found;
@@ -283,11 +283,11 @@ TEST(LightFigure, armsAreAsLongWhateverTheDistance) {
                 for (const LightHandle& handle : figure.handles) {
                     const glm::dvec2 way = handle.arm == 0 ? glm::dvec2(1.0, 0.0) : glm::dvec2(0.0, -1.0);
                     const glm::dvec2 expected = 0.5 * kFigurePicture + 100.0 * scale * way;
-                    EXPECT_LT(glm::distance(handle.place, expected), 1e-6) << handle.arm; // rounding, of 1000
+                    EXPECT_LT(glm::distance(handle.place, expected), 1e-6) << handle.arm; // rounding, in pixels of 1000
                     EXPECT_LT(glm::distance(handle.way, way), 1e-6) << handle.arm;
                 }
             }
-    // In a small picture a fifth of its shorter side.
+    // In a small image, arms take a fifth of its shorter side.
     const PictureView small(test::perspective({0.0, 0.0, 3.0}, {0.0, 0.0, 0.0}), {400.0, 200.0});
     const LightFigure figure = lightFigure(light, small, 1.0);
     ASSERT_NE(armOf(figure, 0), nullptr);
@@ -299,7 +299,7 @@ TEST(LightFigure, anArmAtTheEyeOrAwayFromItIsNotOffered) {
     for (const double degrees : {0.0, 11.9, 12.1, 90.0, 167.9, 168.1, 180.0})
         for (int axis = 0; axis < 3; ++axis) {
             SCOPED_TRACE(fmt::format("axis {}, {} degrees from the line of sight", axis, degrees));
-            // Off in the diagonal of the other two, so that neither points at the eye.
+            // Deviates along the diagonal of the other two axes, so that neither points at the eye.
             glm::dvec3 axisWS(0.0), asideWS(std::sqrt(0.5));
             axisWS[axis] = 1.0;
             asideWS[axis] = 0.0;
@@ -320,7 +320,7 @@ TEST(LightFigure, anArmGivesWayToOtherHandlesAndIsNotOfferedWhereThePictureHasNo
     scenes::Light light = askewLight(scenes::LightType::Rectangle);
     light.directionWS = {0.0, 0.0, 1.0};
     light.alongWS = {1.0, 0.0, 0.0};
-    light.widthMetres = float(200.0 * metresPerUnit); // one of its sides is where the arm's end would be
+    light.widthMetres = float(200.0 * metresPerUnit); // one of its sides is at the arm's end
     light.heightMetres = float(100.0 * metresPerUnit);
     const LightFigure inTheMiddle = lightFigure(light, view, 1.0);
     ASSERT_NE(armOf(inTheMiddle, 0), nullptr);
@@ -329,7 +329,7 @@ TEST(LightFigure, anArmGivesWayToOtherHandlesAndIsNotOfferedWhereThePictureHasNo
     EXPECT_GE(place.x, 618.0) << "a press takes what is nearest within 9";
     EXPECT_LE(place.x, 630.0);
     EXPECT_EQ(handleAt(inTheMiddle.handles, place, 9.0), std::size_t(armOf(inTheMiddle, 0) - &inTheMiddle.handles[0]));
-    light.positionWS.x = 390.0 * metresPerUnit; // its side is 10 before the picture's
+    light.positionWS.x = 390.0 * metresPerUnit; // its side is 10 from the image's side
     const LightFigure atTheRight = lightFigure(light, view, 1.0);
     EXPECT_EQ(armOf(atTheRight, 0), nullptr);
     EXPECT_NE(armOf(atTheRight, 1), nullptr);

@@ -32,7 +32,7 @@ Light spot() {
     return light;
 }
 
-/// What the file of a scene would say of it, read again.
+/// Returns the light as read back from the JSON of a scene file.
 Light savedAndRead(const Light& light) {
     const nlohmann::json written(scenes::write::lightJson(light));
     return scenes::scenejson::readLight(scenes::JsonValue(written, {}), 0);
@@ -109,7 +109,7 @@ TEST(LightLife, withItsLastKeyALightIsWhatThatSaid) {
         EXPECT_EQ(light.color, then.color);
         EXPECT_EQ(light.intensity, then.intensity);
     }
-    Light dark = spot(); // keys of files may go below what a light can be
+    Light dark = spot(); // keys of files may be below a light's minimum
     addKey(dark, LightKeyed::Color, 0.0);
     setKey(dark, LightKeyed::Color, 0, {-1, 0.5, 0});
     removeKey(dark, LightKeyed::Color, 0);
@@ -149,7 +149,7 @@ TEST(LightLife, aWayBeginsWhereTheLightIs) {
             if (from == to) {
                 EXPECT_TRUE(light == before);
             }
-            // A path takes the keys' time from 0 s on, and keys a path's.
+            // Conversion between a path and keys starts at 0 s, so the position at other times may change.
             const bool isOfPlaces = from == LightAnimationKind::Path && to == LightAnimationKind::Keyframes;
             if (!isOfPlaces) {
                 EXPECT_LT(glm::distance(scenes::lightAtTime(light, 2.0).positionWS, shownWS), 1e-12)

@@ -23,7 +23,7 @@ std::vector<std::string> namesOf(const Lights& lights) {
 
 using Names = std::vector<std::string>;
 
-/// A point light that moves in one of the ways there are, or stands still where `kind` is -1.
+/// A point light with this kind of animation, or static if `kind` is -1.
 scenes::Light movingLight(int kind) {
     scenes::Light light;
     light.positionWS = {0.5, 1.5, -2.0};
@@ -200,7 +200,7 @@ TEST(LightList, aLightOfAnyTypeThatIsChosenCanBeSavedAndAnAreaShines) {
     EXPECT_EQ(light.radiusMetres, 0.125f) << "it has one already";
 }
 
-/// A light of a type with all that lights can have, and without a radius where it shines without one.
+/// A light of a type with all members set, but without a radius if its type needs none.
 scenes::Light lightOfAll(const scenes::LightTypeInfo& type) {
     scenes::Light light;
     light.name = "lamp";
@@ -266,7 +266,7 @@ TEST(LightList, aRectangleBecomesThePolygonOfItsCornersUnlessThoseOfThePolygonWe
 }
 
 TEST(LightList, typesComeBackOfEachLightWhileOthersComeAndGo) {
-    Lights points, spheres; // by turns of either falloff
+    Lights points, spheres; // with alternating falloffs
     TypeChooser chooser;
     for (std::size_t i = 0; i < 4; ++i) {
         points.push_back(lightOfAll(scenes::infoOf(scenes::LightType::Point)));
@@ -280,12 +280,12 @@ TEST(LightList, typesComeBackOfEachLightWhileOthersComeAndGo) {
         return changed == points[light];
     };
     for (std::size_t i = 0; i < 4; ++i) EXPECT_TRUE(comesBack(i, i)) << i;
-    chooser.follow(1, 1, 0); // one is deleted
+    chooser.follow(1, 1, 0); // a light is deleted
     EXPECT_TRUE(comesBack(0, 0));
     EXPECT_TRUE(comesBack(2, 1));
     EXPECT_TRUE(comesBack(3, 2));
     EXPECT_FALSE(comesBack(0, 3)) << "nothing is known of such a one";
-    chooser.follow(0, 0, 1); // one comes before them
+    chooser.follow(0, 0, 1); // a light is added before them
     EXPECT_FALSE(comesBack(0, 0));
     EXPECT_TRUE(comesBack(2, 2));
 }
@@ -306,7 +306,7 @@ TEST(LightList, whatWasChangedMeanwhileStaysAndOtherLightsGetNothing) {
     EXPECT_EQ(light.radiusMetres, 0.75f);
     EXPECT_EQ(light.widthMetres, 2.5f);
     EXPECT_EQ(light.falloff, scenes::Falloff::Attenuation);
-    // Another scene.
+    // After another scene is opened.
     chooser.choose(0, light, scenes::LightType::Disk, 10.0);
     chooser.forget();
     chooser.choose(0, light, scenes::LightType::Point, 10.0);
@@ -315,7 +315,7 @@ TEST(LightList, whatWasChangedMeanwhileStaysAndOtherLightsGetNothing) {
 
 TEST(LightList, cornersOfAPolygonNeverMakeNoOutline) {
     scenes::Light light;
-    light.type = scenes::LightType::Polygon; // a square of 1 m
+    light.type = scenes::LightType::Polygon; // a square of 1 m by default
     EXPECT_TRUE(moveCorner(light, 2, {0.0f, -0.25f}));
     EXPECT_EQ(light.corners.metres[2], glm::vec2(0.0f, -0.25f));
     const scenes::Light before = light;
@@ -341,7 +341,7 @@ TEST(LightList, theWidthOfARectangleStaysAcrossItsDirection) {
     EXPECT_LT(glm::distance(light.alongWS, glm::dvec3(0.8, 0.0, 0.6)), 1e-15);
     EXPECT_TRUE(layLight(light, {0.0, 5.0, 0.0}));
     EXPECT_EQ(light.alongWS, glm::dvec3(0, 1, 0));
-    turnLight(light, {0.0, -2.0, 0.0}); // where its width was
+    turnLight(light, {0.0, -2.0, 0.0}); // along its former width
     EXPECT_NEAR(glm::dot(light.alongWS, light.directionWS), 0.0, 1e-15);
     EXPECT_NEAR(glm::length(light.alongWS), 1.0, 1e-15);
     const scenes::Light before = light;

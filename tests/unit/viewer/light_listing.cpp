@@ -1,4 +1,4 @@
-// The list of lights: searched, sorted and in groups.
+// The list of lights: searching, sorting and grouping.
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// Lights in an order that none of the listing's is.
+/// Lights whose order differs from every sort order of the listing.
 Lights hallLights() {
     Lights lights;
     const auto add = [&](const char* name, scenes::LightType type, float intensity) {
@@ -28,7 +28,7 @@ Lights hallLights() {
     return lights;
 }
 
-/// As a person reads them: headings with the number of their lights.
+/// The listing as text: headings with the number of their lights.
 std::vector<std::string> textOf(const Lights& lights, const LightListing& listing) {
     std::vector<std::string> text;
     for (const ListedLight& row : listedLights(lights, listing))

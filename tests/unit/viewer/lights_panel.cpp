@@ -19,7 +19,7 @@ protected:
     std::string textOfPanel(State& state) {
         return textOf([&] { lightsPanel(state); });
     }
-    /// The panel of a scene with one light, which is selected.
+    /// Returns the panel's text for a scene with one light, which is selected.
     std::string textOfLight(scenes::LightType type) {
         State state = test::roomWithLight(type);
         return textOfPanel(state);
@@ -90,7 +90,7 @@ TEST_F(LightRows, areNotWiderThanThePanel) {
         show([&] { lightsPanel(state); });
         return ImGui::FindWindowByName("panel")->ContentSize.x;
     };
-    // Those of a rectangle fill the panel's width.
+    // The rows of a rectangle light fill the panel's width.
     const float panelWidth = contentWidth(scenes::LightType::Rectangle);
     for (const scenes::LightTypeInfo& type : scenes::lightTypes())
         EXPECT_LE(contentWidth(type.type), panelWidth) << type.name;
@@ -160,7 +160,7 @@ TEST_F(LightRows, aClickOnANameSelectsTheLightAndAnotherLetsGoOfIt) {
     ASSERT_NE(list, nullptr);
     const float padding = 2.0f * ImGui::GetStyle().CellPadding.y;
     const float header = ImGui::GetTextLineHeight() + padding, row = ImGui::GetFrameHeight() + padding;
-    ImGui::GetIO().MouseDoubleClickTime = 0.0f; // these are single ones
+    ImGui::GetIO().MouseDoubleClickTime = 0.0f; // these clicks are single ones
     for (const int expected : {0, scenes::kNone, 0}) {
         click({list->Pos.x + 100.0f, list->Pos.y + header + 0.5f * row}, draw);
         EXPECT_EQ(state.selectedLight, expected);

@@ -1,4 +1,4 @@
-// What the outline of the selected material follows from.
+// Conditions of the selected material's outline.
 #include <utility>
 
 #include "tests/unit/viewer/PanelTest.h"

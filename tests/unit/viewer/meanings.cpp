@@ -1,4 +1,4 @@
-// What the panels say about their rows.
+// Explanations of the panels' rows.
 #include <filesystem>
 #include <regex>
 #include <set>
@@ -67,7 +67,7 @@ TEST_F(Tips, comeUpAtARowsLabelAndAtItsWidgetAndNowhereElse) {
     EXPECT_TRUE(isShownAt(corner.x + 5.0f, corner.y + 8.0f)) << "at the label";
     EXPECT_TRUE(isShownAt(corner.x + 200.0f, corner.y + 8.0f)) << "at the slider";
     EXPECT_FALSE(isShownAt(600.0f, corner.y + 8.0f));
-    // A click takes it away, until the pointer has been elsewhere.
+    // A click hides it until the pointer has left.
     isShownAt(corner.x + 200.0f, corner.y + 8.0f);
     ImGui::GetIO().MouseDown[0] = true;
     EXPECT_FALSE(isShownAt(corner.x + 200.0f, corner.y + 8.0f)) << "it is dragged";

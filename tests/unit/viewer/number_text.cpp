@@ -40,7 +40,7 @@ TEST(NumberText, whatIsNotEditedOfAVectorStaysToTheLastBit) {
 
 TEST(NumberText, aNumberThatIsShownAsZeroCanBeMadeZero) {
     float value = -1e-4f;
-    const auto type = [](float& edited) { return std::exchange(edited, 0.0f) != 0.0f; }; // as Dear ImGui's fields
+    const auto type = [](float& edited) { return std::exchange(edited, 0.0f) != 0.0f; }; // like Dear ImGui's fields
     EXPECT_TRUE(editShown(value, -10.0f, 10.0f, "%.3f", type));
     EXPECT_EQ(value, 0.0f);
     value = -0.0f;

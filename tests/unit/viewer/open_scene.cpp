@@ -1,4 +1,4 @@
-// Scenes as they are opened: their cameras and hooks.
+// Opened scenes: their cameras and hooks.
 #include "viewer/session/OpenScene.h"
 
 #include <glm/trigonometric.hpp>
@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-/// A scene of a perspective and an orthographic camera.
+/// A scene with a perspective and an orthographic camera.
 struct Opened {
     OpenScene open{"test.json", {}, made(), {}};
 
@@ -24,7 +24,7 @@ struct Opened {
         return scene;
     }
     const scenes::Camera& shown() const { return open.scene().cameras[std::size_t(open.camera())]; }
-    /// The picture of `tessera render` with the copied command.
+    /// The camera of `tessera render` with the copied command.
     scenes::Camera said() const {
         return scenes::changedCamera(made().cameras[std::size_t(open.camera())], open.cameraChange());
     }
@@ -41,7 +41,7 @@ struct Opened {
     void turn() { turnCamera(open); }
 };
 
-/// Every kind of change that the command line can make of a perspective camera.
+/// Every kind of change that the command line can make to a perspective camera.
 std::vector<scenes::CameraChange> changes() {
     std::vector<scenes::CameraChange> list(7);
     list[0].fovYDegrees = 20.0;
@@ -190,7 +190,7 @@ TEST(OpenScene, orbitingTurnsAboutWhatIsSeenInTheMiddleAndNotAboutTheMiddleOfThe
     scenes::Scene scene = Opened::made();
     scene.cameras.resize(1);
     scene.cameras[0] = perspective({0, 0, 9}, {0, 0, 0});
-    // A wall far behind a small plate, which lies two metres before the eye.
+    // A wall far behind a small plate, which is two metres before the eye.
     const auto add = [&](double z, float side) {
         scenes::Mesh plate = tessera::test::quad();
         for (glm::vec3& position : plate.positionsOS) position *= side;
@@ -273,7 +273,7 @@ TEST(OpenScene, aDragOfAHooksParameterIsOneStepAndIsUndone) {
     EXPECT_EQ(strength(), 1.25f);
 }
 
-/// A scene in a variant that has a material of its own, under the others.
+/// A scene in a variant with a material of its own after the common one.
 scenes::Scene inVariant(const char* ownMaterial) {
     scenes::Scene scene = Opened::made();
     for (const char* name : {"paint", ownMaterial}) scene.materials.emplace_back().name = name;
@@ -314,7 +314,7 @@ TEST(OpenScene, anotherVariantOfTheMaterialsGoesOnWithTheEdits) {
             light.intensity = 3.0f;
             material.perceptualRoughness = 0.25f;
         });
-        // The file then has these.
+        // The saved file has these edits.
         scenes::Scene loaded = inVariant("sky");
         if (isSaved) {
             before.storeViewpoint();
@@ -343,7 +343,7 @@ TEST(OpenScene, anotherVariantOfTheMaterialsGoesOnWithTheEdits) {
         EXPECT_EQ(now.history().undoable(), isSaved ? 4u : 3u);
         ASSERT_NE(now.redo(), nullptr);
         EXPECT_EQ(now.scene().lights[1].intensity, 5.0f);
-        now.useCamera(1); // as it was left
+        now.useCamera(1); // as it was before
         now.undo();
         EXPECT_EQ(now.camera(), 1);
         now.undo();
@@ -381,7 +381,7 @@ TEST(OpenScene, aVariantDoesNotGoOnWithEditsOfMaterialsThatItLacksOrFromAStateTh
     }));
     open.becomes("saved.json");
     open.undo();
-    changeOwn(0.75f); // in the place of what was saved
+    changeOwn(0.75f); // replaces the saved edit
     EXPECT_FALSE(open.canGoOnAs(inVariant("ruby")));
 }
 

@@ -1,4 +1,4 @@
-// Opened scenes whose clips play: what moves, what is edited meanwhile, and what stays.
+// Opened scenes with playing clips: moving parts, edits meanwhile, and unchanged parts.
 #include "base/Error.h"
 #include "scenes/Clips.h"
 #include "scenes/Fingerprint.h"
@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-/// riggedScene(), which a camera looks at that no node carries.
+/// riggedScene() with a camera that no node carries.
 scenes::Scene riggedAndSeen() {
     scenes::Scene scene = scenes::riggedScene();
     scene.rig.cameras.clear();
@@ -207,7 +207,7 @@ TEST(OpenScene, aClipStandsStillAfterItsEnd) {
 
 TEST(OpenScene, anotherClipBeginsAndNoneLeavesTheSceneByItself) {
     scenes::Scene scene = riggedAndSeen();
-    scenes::poseScene(scene, 0.0); // as the clip begins
+    scenes::poseScene(scene, 0.0); // as at the clip's beginning
     const std::vector<glm::vec3> atRest = scene.meshes[0].positionsOS;
     OpenScene open("rigged.gltf", {}, scene, {});
     ASSERT_TRUE(open.showTime(1.0));
@@ -229,7 +229,7 @@ TEST(OpenScene, anotherClipBeginsAndNoneLeavesTheSceneByItself) {
     EXPECT_TRUE(open.showTime(0.5)) << "the clip before still plays";
 }
 
-/// riggedAndSeen() with a clip "shine", which raises the metallic number of the material from 0.5 to 1; by itself it is
+/// riggedAndSeen() with a clip "shine", which raises the material's metallic from 0.5 to 1; without the clip it is
 /// 0.125.
 scenes::Scene riggedAndShining() {
     scenes::Scene scene = riggedAndSeen();
@@ -270,7 +270,7 @@ TEST(OpenScene, anEditOfAMaterialHoldsNothingOfTheClipThatPlaysMeanwhile) {
 
 TEST(OpenScene, aVariantGoesOnWithEditsOfAMaterialThatAClipChanges) {
     scenes::Scene loaded = riggedAndShining();
-    scenes::playClip(loaded, "shine"); // as of a file that names it
+    scenes::playClip(loaded, "shine"); // as for a file that names it
     scenes::poseScene(loaded, 0.0);
     ASSERT_EQ(loaded.materials[0].metallic, 0.5f) << "unlike at rest";
     OpenScene open("rigged.gltf", {}, loaded, {});

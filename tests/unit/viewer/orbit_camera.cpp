@@ -94,7 +94,7 @@ TEST(OrbitCamera, rotatingTakesTheFrontOfABallHalfAsHighAsThePictureAlong) {
         rig.settle();
         EXPECT_NE(rig.orbit.pose().eyeWS, pose.eyeWS);
         const glm::dvec3 shown = shownAt(rig.shown(), frontWS);
-        // Small angles: the error is of the order of the turn, about 0.01, times the drag.
+        // Small angles: the error is about the angle of rotation, 0.01, times the drag.
         EXPECT_NEAR(shown.x, 3.0, 0.06);
         EXPECT_NEAR(shown.y, -2.0, 0.06);
         EXPECT_NEAR(glm::distance(glm::dvec3(rig.shown().worldFromCamera[3]), rig.orbit.pivotWS()), pose.focusMetres,

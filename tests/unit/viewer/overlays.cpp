@@ -1,4 +1,4 @@
-// What the interface lays over the picture.
+// Overlays of the interface on the image.
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -19,7 +19,7 @@ namespace {
 
 class Overlays : public test::PanelTest {
 protected:
-    /// The status line, beside which the panels are hidden.
+    /// Returns the status line, with the panels hidden.
     std::string statusLine(State& state, const Facts& facts = {}) {
         state.showsPanel = false;
         return firstWindowText(state, facts);
@@ -97,7 +97,7 @@ TEST_F(Overlays, theScaleOfCountsEndsAtTheLargestThatThePictureHas) {
     State state;
     Facts facts;
     facts.shown[0] = test::lookAt(frame::DebugView::Lights);
-    /// Colours of the bar, which is the only thing of any colour.
+    /// Red of the bar's brightest colour; nothing else is coloured.
     const auto brightest = [&] {
         int most = 0;
         for (const ImDrawVert& vertex : overlay([&] { drawLegend(state, facts, area(state), 1.0f); })) {
@@ -122,7 +122,7 @@ TEST_F(Overlays, theScaleOfCountsEndsAtTheLargestThatThePictureHas) {
 
 TEST_F(Overlays, whatNamesThePictureFollowsTheShownOneAndNotTheChosenOne) {
     State state;
-    state.looks[0] = test::lookAt(frame::DebugView::Lights); // chosen, and its shaders compile
+    state.looks[0] = test::lookAt(frame::DebugView::Lights); // selected, but its shaders are still compiling
     Facts facts;
     facts.shown[0] = test::lookAt(frame::DebugView::Normal);
     facts.isPreparing = true;
@@ -203,7 +203,7 @@ TEST_F(Overlays, aViewIsNamedInItsPictureAndTheLitPictureIsLeftFree) {
     ASSERT_TRUE(names());
     EXPECT_GE(names()->first, area(state).corner.x);
     EXPECT_LE(names()->second, area(state).corner.x + area(state).size.x);
-    // Beside the divider each side has its own, and neither reaches across.
+    // On each side of the divider the name stays within its side.
     state.compare = Compare::Split;
     state.divider = 0.6f;
     const float dividerX = area(state).corner.x + 0.6f * area(state).size.x;
@@ -211,7 +211,7 @@ TEST_F(Overlays, aViewIsNamedInItsPictureAndTheLitPictureIsLeftFree) {
     ASSERT_TRUE(names());
     EXPECT_LT(names()->first, dividerX);
     EXPECT_GT(names()->second, dividerX);
-    // Of a difference the two pictures.
+    // A difference shows the names of both images.
     state.compare = Compare::Difference;
     EXPECT_TRUE(names());
     facts.shown[1].reset();

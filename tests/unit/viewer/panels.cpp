@@ -19,8 +19,8 @@ namespace {
 
 class Panels : public test::PanelTest {
 protected:
-    /// Moves the pointer to a place of a window beside the panels, with the button down or up, and draws it and the
-    /// interface.
+    /// Moves the pointer to a place of a window beside the panels, with the button down or up, and draws the window and
+    /// the interface.
     template <typename Aside>
     void nextAside(State& state, bool isDown, const ImVec2& place, const Aside& aside) {
         ImGui::GetIO().MouseDown[0] = isDown;
@@ -39,7 +39,7 @@ protected:
 using testing::HasSubstr;
 using testing::Not;
 
-/// The number behind a label at the start of a line.
+/// Returns the number after a label at the start of a line.
 double numberBehind(const std::string& text, const std::string& label) {
     const std::size_t found = text.find("\n" + label);
     if (found == std::string::npos) return std::nan("");
@@ -150,7 +150,7 @@ TEST_F(Panels, aMaterialIsShownWhereItsPanelIsOpenAndOneIsSelected) {
 
 TEST_F(Panels, noPlanIsMadeWhileThePanelsAreHidden) {
     State state;
-    state.wantsPlan = true; // the graph was shown the frame before
+    state.wantsPlan = true; // the graph was visible in the previous frame
     state.showsPanel = false;
     frame([&] { drawInterface(state, {}, pictureArea(state, {1280.0f, 2000.0f}, 1.0f), 1.0f); });
     EXPECT_FALSE(state.wantsPlan);
@@ -172,7 +172,7 @@ TEST_F(Panels, oneDragOfAWidgetIsOneStepThatCanBeUndone) {
     };
     std::vector<float> ends;
     for (int drag = 0; drag < 2; ++drag) {
-        const float start = 60.0f * float(drag); // in one place it would be a double click
+        const float start = 60.0f * float(drag); // in the same place it would be a double click
         for (int i = 0; i < 3; ++i) next(false, start);
         for (int i = 0; i < 5; ++i) next(true, start + 10.0f * float(i));
         for (int i = 0; i < 2; ++i) next(false, start + 40.0f);
@@ -239,7 +239,7 @@ TEST_F(Panels, aPanelThatIsOpenedLowInTheColumnIsScrolledTo) {
     for (int i = 0; i < 3; ++i) EXPECT_EQ(next(), 0.0f);
     for (const auto& [title, isOpen] : state.sections) EXPECT_FALSE(isOpen) << title;
     const auto clickBar = [&](const char* title, int bar) {
-        constexpr float kFirst = 17.0f, kStep = 24.0f; // of bars, one below the other
+        constexpr float kFirst = 17.0f, kStep = 24.0f; // of title bars, one below the other
         click({150.0f, kFirst + kStep * float(bar)}, next);
         next();
         EXPECT_TRUE(state.sections[title]) << title;
@@ -266,7 +266,7 @@ TEST_F(Panels, aSwatchOpensAPickerThatChangesNothingByItself) {
     EXPECT_TRUE(isPopupOpen());
     EXPECT_EQ(color, before);
     ImGui::GetIO().MousePos = {-1.0f, -1.0f};
-    const std::string opened = textOf(draw); // to the end of the picker
+    const std::string opened = textOf(draw); // up to the end of the picker
     EXPECT_EQ(std::count(opened.begin(), opened.end(), '#'), 1) << "hexadecimal digits, once" << opened;
     EXPECT_THAT(opened, HasSubstr("all times 3.5"));
 }
@@ -345,7 +345,7 @@ TEST_F(Panels, aClickOnTheGreatestErrorInspectsItsPixel) {
     figures.worstY = 300;
     for (float y = 20.0f; y < 400.0f; y += 6.0f) { // across all rows
         clickPanel({200.0f, y}, [&] { comparePanel(state, facts); });
-        ImGui::ClosePopupsOverWindow(nullptr, false); // of the list that the click opened
+        ImGui::ClosePopupsOverWindow(nullptr, false); // closes the list that the click opened
     }
     EXPECT_TRUE(state.inspects);
     ASSERT_TRUE(state.pinnedPlace);
@@ -370,7 +370,7 @@ TEST_F(Panels, theTimingsPanelTellsTheMedianAndTheLatest) {
         state.timings.add(frame);
     }
     const std::string text = textOf([&] { timingsPanel(state, facts); });
-    for (const char* part : {"20.0 ms at scale 1", "3 pictures, the latest 90.0 ms", "10.0"}) // the last of the pass
+    for (const char* part : {"20.0 ms at scale 1", "3 pictures, the latest 90.0 ms", "10.0"}) // the latest of the pass
         EXPECT_THAT(text, HasSubstr(part));
 }
 

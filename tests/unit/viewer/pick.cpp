@@ -8,8 +8,8 @@ namespace {
 
 using namespace test;
 
-/// Two squares of two triangles each that face +Z: a small one at z = 1 at the second node, a large one at z = 0 as the
-/// second instance of the first node, whose first is out of view. Triangle 0 is the lower right one.
+/// Two squares of two triangles each that face +Z: a small one at z = 1 at the second node, and a large one at z = 0 as
+/// the second instance of the first node, whose first instance is out of view. Triangle 0 is the lower right one.
 scenes::Scene squares(scenes::AlphaMode nearMode = scenes::AlphaMode::Opaque) {
     scenes::Scene scene;
     scene.materials.resize(3);
@@ -26,7 +26,7 @@ scenes::Scene squares(scenes::AlphaMode nearMode = scenes::AlphaMode::Opaque) {
 }
 
 const scenes::Camera kCamera = orthographic({0, 0, 5}, {0, 0, 0}, 4.0);
-constexpr glm::ivec2 kSizePixels{80, 80}; // ten pixels a metre
+constexpr glm::ivec2 kSizePixels{80, 80}; // ten pixels per metre
 
 TEST(Pick, aPixelIsTheNearestTrianglesNodeInstanceAndMaterial) {
     const scenes::Scene scene = squares();

@@ -28,7 +28,7 @@ TEST(PictureView, aPointIsWhereTheRendererDrawsIt) {
             const glm::dvec4 clip = drawn.clipFromLS * glm::dvec4(drawn.positionLS(point), 1.0);
             const auto place = view.placeOf(point);
             ASSERT_TRUE(place.has_value());
-            // Both are double precision over a handful of operations.
+            // Both take a handful of operations in double precision.
             EXPECT_NEAR(place->x / kPicture.x, 0.5 + 0.5 * clip.x / clip.w, 1e-12);
             EXPECT_NEAR(place->y / kPicture.y, 0.5 - 0.5 * clip.y / clip.w, 1e-12);
         }
@@ -53,7 +53,7 @@ TEST(PictureView, theLineOfSightAtAPlaceRunsThroughWhatIsShownThere) {
             EXPECT_GT(glm::dot(toPointWS, line.directionWS), 0.0);
             EXPECT_LT(glm::length(glm::cross(toPointWS, line.directionWS)), 1e-12);
             EXPECT_LT(glm::length(view.towardsViewerWS(pointWS) + line.directionWS), 1e-12);
-            // A metre to the right at the point's depth.
+            // A point a metre to the right at the point's depth.
             const double units = view.placeOf(pointWS + view.rightWS())->x - view.placeOf(pointWS)->x;
             EXPECT_NEAR(units * view.metresPerUnit(pointWS).value(), 1.0, 1e-9);
         }
@@ -63,12 +63,12 @@ TEST(PictureView, theLineOfSightAtAPlaceRunsThroughWhatIsShownThere) {
 TEST(PictureView, aLineEndsAtTheNearPlaneAndAtThePicturesSides) {
     scenes::Camera camera = test::perspective({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {0.0, 1.0, 0.0}, 90.0);
     camera.nearMetres = 0.5;
-    const PictureView view(camera, {200.0, 100.0}); // 100 units are twice the depth
+    const PictureView view(camera, {200.0, 100.0}); // at a depth d, 100 units are 2 d
     const auto within = view.lineBetween({-1.0, 0.5, -2.0}, {1.0, 0.0, -2.0});
     ASSERT_TRUE(within);
     EXPECT_NEAR(glm::distance(within->first, {75.0, 37.5}), 0.0, 1e-9);
     EXPECT_NEAR(glm::distance(within->second, {125.0, 50.0}), 0.0, 1e-9);
-    // From behind the viewer: it comes into view at (0.1, 0, -0.5), either way round.
+    // From behind the viewer, the line enters the view at (0.1, 0, -0.5), in either direction.
     const glm::dvec3 behindWS(0.1, 0.0, 3.0), aheadWS(0.1, 0.0, -5.0);
     const glm::dvec2 enters(100.0 + 50.0 * 0.1 / 0.5, 50.0), ends(100.0 + 50.0 * 0.1 / 5.0, 50.0);
     for (const bool isTurned : {false, true}) {

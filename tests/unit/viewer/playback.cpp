@@ -10,7 +10,7 @@ State shownScene(scenes::Scene scene) {
     return test::stateOf(std::move(scene), {}, "rigged.gltf");
 }
 
-/// With a clip of a second.
+/// A window with a clip of one second.
 State clipShown() {
     return shownScene(scenes::riggedScene());
 }

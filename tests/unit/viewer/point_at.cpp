@@ -8,7 +8,7 @@ namespace {
 
 using namespace test;
 
-/// Two cards of 2 m that face +Z, each of a material of its own: at x = -4 and x = 4. The camera is 10 m before them.
+/// Two cards of 2 m that face +Z, each with its own material, at x = -4 and x = 4. The camera is 10 m before them.
 class PointAt : public testing::Test {
 protected:
     PointAt() {
@@ -28,20 +28,20 @@ protected:
         scene.cameras = {perspective({0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 60.0)};
         state_ = stateOf(std::move(scene));
     }
-    /// What lies in the picture's middle, at the depth of what orbits turn about, when all has come to rest.
+    /// The point at the image's centre at the pivot's depth, once the camera is static.
     glm::dvec3 pivotWS() {
         state_.open->rig().advance(kLongSeconds, kHeightPixels);
         const CameraPose& pose = state_.open->rig().pose();
         return pose.eyeWS + pose.focusMetres * pose.heading.forwardWS();
     }
     void expectPivot(const glm::dvec3& placeWS) { EXPECT_LT(glm::distance(pivotWS(), placeWS), 1e-6); }
-    /// What is selected last is brought into view, and lies at this place.
+    /// Expects the latest selection to be framed, with its centre at this place.
     void expectFramed(const glm::dvec3& placeWS) {
         state_.noteSelection();
         frameSelection(state_);
         expectPivot(placeWS);
     }
-    /// A place of the picture where the card of a side is.
+    /// A place in the image on the card of a side.
     static glm::vec2 placeOf(int side) { return {side == 0 ? 0.16f : 0.84f, 0.5f}; }
 
     State state_;
@@ -84,7 +84,7 @@ TEST_F(PointAt, whatHasNoPlaceLeavesAllInView) {
     state_.selectedLight = 1; // directional
     expectFramed({0, 0, 0});
     state_.selectedLight = scenes::kNone;
-    state_.selectedMaterial = 2; // that nothing has
+    state_.selectedMaterial = 2; // used by nothing
     expectFramed({0, 0, 0});
     state_.selectedLight = state_.selectedMaterial = 7; // deleted
     expectFramed({0, 0, 0});

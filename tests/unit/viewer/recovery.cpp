@@ -59,7 +59,7 @@ TEST_F(RecoveryTest, editsAreKeptUntilTheyAreSavedOrUndone) {
 TEST_F(RecoveryTest, theLatestFileOfRunsThatEndedIsOffered) {
     const Recovery recovery(folder());
     EXPECT_FALSE(recovery.left());
-    // The system's first process always runs, but it is no viewer's.
+    // The system's first process always runs, but it is not a viewer.
     const fs::path old = temporary_.write("recovery/1/tessera-hall.json", "{}");
     const fs::path late = temporary_.write("recovery/1/tessera-room.json", "{}");
     temporary_.write("recovery/1/lock", "");

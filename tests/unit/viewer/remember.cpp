@@ -10,7 +10,7 @@ using Texts = decltype(Preferences::settings);
 
 constexpr glm::ivec2 kWindow(900, 700);
 
-/// A window that shows a look, and has the size it opened with.
+/// A window with a look and its initial size.
 State showing(const Look& look) {
     State state;
     state.looks = {look, look};
@@ -30,7 +30,7 @@ Preferences remembered() {
     return preferences;
 }
 
-/// A look that differs from the defaults in all that is remembered, and in the exposure, which is not.
+/// A look that differs from the defaults in all remembered settings, and in the exposure, which is not remembered.
 Look ofItsOwn() {
     Look look;
     look.settings.exposureEV = 1.5f;
@@ -44,7 +44,7 @@ Look ofItsOwn() {
 }
 
 TEST(Remember, unchangedValuesDoNotChangeThePreferences) {
-    for (const Look& begun : {Look(), ofItsOwn()}) { // said on the command line, or wished by the scene
+    for (const Look& begun : {Look(), ofItsOwn()}) { // set by the command line, or requested by the scene
         for (const Preferences& before : {Preferences(), remembered()}) {
             Preferences preferences = before;
             State state = showing(begun);
@@ -92,7 +92,7 @@ TEST(Remember, commandLineValuesAreNotRemembered) {
     Preferences preferences = remembered();
     Look said = ofItsOwn();
     Look now = said;
-    now.settings.toneMap = frame::ToneMap::None; // another choice changes nothing about that
+    now.settings.toneMap = frame::ToneMap::None; // a choice of another value is remembered
     remember(preferences, showing(said), said, kWindow);
     EXPECT_EQ(preferences, remembered());
     remember(preferences, showing(now), said, kWindow);

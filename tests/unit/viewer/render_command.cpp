@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A scene of two lights and three cameras, the last of the first one's name; `options` are its own options.
+/// A scene of two lights and three cameras, the last with the first one's name; `options` are its own options.
 std::string sceneFile(const tessera::test::TempFolder& folder, const std::string& options = "{}") {
     folder.write("sway.glsl", "void hookSurface(inout HookedSurface surface, HookInputs inputs) {}");
     folder.write("model.gltf", R"({"asset": {"version": "2.0"}, "extensions": {"KHR_materials_variants": {"variants":
@@ -35,7 +35,7 @@ std::string sceneFile(const tessera::test::TempFolder& folder, const std::string
         .string();
 }
 
-/// The words that a shell makes of a line.
+/// Splits a line into words as a shell does.
 std::vector<std::string> wordsOf(const std::string& line) {
     wordexp_t words{};
     EXPECT_EQ(wordexp(line.c_str(), &words, WRDE_NOCMD | WRDE_UNDEF), 0) << line;
@@ -50,13 +50,13 @@ struct Parsed {
     app::Request request;
 };
 
-/// What the program makes of a command line.
+/// Parses a command line as the program does.
 Parsed parsed(const std::string& line) {
     std::vector<std::string> words = wordsOf(line);
     EXPECT_EQ(words.at(0), "tessera");
     EXPECT_EQ(words.at(1), "render");
     words.erase(words.begin(), words.begin() + 2);
-    std::ranges::reverse(words); // as CLI11 takes them
+    std::ranges::reverse(words); // CLI11 expects them reversed
     Parsed result;
     CLI::App command;
     app::addFrameOptions(command, result.options, "");
@@ -66,7 +66,7 @@ Parsed parsed(const std::string& line) {
     return result;
 }
 
-/// Pasting the command gives the same technique, settings and camera, to the last bit.
+/// Expects the pasted command to give the same technique, settings and camera, to the last bit.
 void expectSame(const RenderRequest& request) {
     scenes::LoadOptions load;
     load.lights = request.lights;
@@ -124,12 +124,12 @@ TEST(RenderCommand, everyValueIsReadBackAndWrittenByItsOwnOptionAlone) {
     }
 }
 
-/// No setting has its default.
+/// A request in which no setting has its default.
 RenderRequest everythingSaid(const std::string& file) {
     RenderRequest request = requestOf(file);
     request.lights = 1;
     request.defaultLight = false;
-    request.environment = "studio"; // which is made the fastest
+    request.environment = "studio"; // the fastest to make
     request.background = glm::dvec3(1.0 / 3.0, 1e-9, 70000.1);
     request.clip = "none";
     request.hookValues = {{"wind", 1.0f / 3.0f}, {"shade", 1e-7f}};
@@ -155,7 +155,7 @@ TEST(RenderCommand, allSettingsAtOnceAreReadBackToTheLastBit) {
     const tessera::test::TempFolder folder;
     expectSame(everythingSaid(sceneFile(folder)));
     RenderRequest perspective = everythingSaid(sceneFile(folder));
-    perspective.settings.camera = 2; // named as another
+    perspective.settings.camera = 2; // shares its name with another
     perspective.pose.halfHeightMetres.reset();
     perspective.pose.fovYDegrees = 100.0 / 3.0;
     expectSame(perspective);

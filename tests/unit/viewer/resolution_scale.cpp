@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kTargetMs = 45.0;
 
-/// Frames of a scene whose pixels and geometry cost so much, drawn as the scale asks.
+/// Draws frames with these costs of pixels and geometry at the scales requested; returns the last frame's time.
 double lastMs(ResolutionScale& scale, double wholeMs, double fixedMs, int frames) {
     double ms = 0.0;
     for (int i = 0; i < frames; ++i) {
@@ -23,7 +23,7 @@ TEST(ResolutionScale, aSlowSceneIsWithinTheTargetAfterThreeFrames) {
         for (const double fixedMs : {0.0, 8.0, 12.0}) {
             ResolutionScale scale(kTargetMs);
             scale.restart(1.0);
-            // The first frame tells what pixels cost, the second what the frame does, a third corrects the line.
+            // The first frame gives the cost of pixels, the second the fixed cost, a third corrects the line.
             lastMs(scale, wholeMs, fixedMs, 3);
             EXPECT_LE(lastMs(scale, wholeMs, fixedMs, 1), kTargetMs) << wholeMs << " + " << fixedMs;
         }
@@ -57,7 +57,7 @@ TEST(ResolutionScale, picturesNeverLosePixelsWhereThatGainsNothing) {
 TEST(ResolutionScale, onePictureThatFillsWhatLaterOnesFindNeverKeepsThemWhole) {
     ResolutionScale scale(kTargetMs);
     scale.restart(kScales.back());
-    scale.drew(1.0, 585.0);            // at rest
+    scale.drew(1.0, 585.0);            // static
     scale.drew(kScales.back(), 600.0); // draws shadow maps too
     lastMs(scale, 580.0, 5.0, 10);
     EXPECT_LE(lastMs(scale, 580.0, 5.0, 1), kTargetMs);

@@ -1,4 +1,4 @@
-// Resources of the render graph as numbers, colours and words, and the window over the picture that shows them.
+// Resources of the render graph as numbers, colours and words, and their window over the image.
 #include "viewer/session/ResourceView.h"
 
 #include <bit>

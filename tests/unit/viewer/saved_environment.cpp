@@ -1,4 +1,4 @@
-// An environment that is turned and brightened in the window: undone, reverted, saved.
+// An environment rotated and brightened in the window: undo, revert and save.
 #include <memory>
 #include <string>
 
@@ -17,7 +17,7 @@ namespace {
 /// Sums and products of these are exact in single precision.
 constexpr scenes::EnvironmentView kChosenView{45.0f, 2.0f};
 
-/// Of a scene whose file is more than edits, so that what is saved names it as its base.
+/// The scene's file holds more than edits, so a saved file names it as its base.
 class SavedEnvironment : public testing::Test {
 protected:
     SavedEnvironment() {
@@ -33,20 +33,20 @@ protected:
         state_.open = std::make_unique<OpenScene>(file, load, std::move(scene), std::move(origin), nullptr,
                                                   environmentSeenBy(state_.looks[0]));
     }
-    /// As the user does.
+    /// Edits the view of the environment as the user does.
     void view(const scenes::EnvironmentView& chosen) { viewEnvironment(state_, chosen); }
     scenes::EnvironmentView seen() const {
         return scenes::asSeen(scenes::ownViewOf(state_.open->scene().environment.value()),
                               environmentSeenBy(state_.looks[1]));
     }
-    /// What another start of the program shows of a file.
+    /// Returns the view of a file after a restart of the program.
     static scenes::EnvironmentView seenOf(const std::string& file) {
         const scenes::Scene scene = scenes::loadScene(file);
         Look look;
         engine::takeWishes(scene, file, look);
         return scenes::asSeen(scenes::ownViewOf(scene.environment.value()), environmentSeenBy(look));
     }
-    /// As a choice of another map, with the numbers of the scene's own.
+    /// A choice of another map, with the numbers of the scene's environment.
     ChosenEnvironment sky() const {
         ChosenEnvironment other;
         other.environment = state_.open->scene().environment;
@@ -74,7 +74,7 @@ TEST_F(SavedEnvironment, liesAndShinesAsItWasSeen) {
     for (const Look& look : state_.looks) EXPECT_EQ(environmentSeenBy(look), scenes::EnvironmentView());
     EXPECT_EQ(scenes::loadScene(file).options, state_.open->scene().options);
     EXPECT_FALSE(state_.open->isEdited());
-    // And once more.
+    // A second time.
     view(kChosenView);
     EXPECT_EQ(seen(), (scenes::EnvironmentView{100.0f, 2.0f}));
     saved();
@@ -97,7 +97,7 @@ TEST_F(SavedEnvironment, oneDragIsOneStepThatIsUndoneToTheExactNumbers) {
     EXPECT_EQ(*state_.open->history().undoText(), "change intensity of the environment");
     EXPECT_EQ(state_.open->history().undoable(), 2u);
     EXPECT_TRUE(state_.open->isEdited());
-    // What is seen of it is no edit, and no part of one.
+    // The backdrop's visibility is no edit, and no part of one.
     for (Look& look : state_.looks) look.settings.environment.backdrop = frame::Backdrop::Off;
     const auto expectSeenBy = [this](const scenes::EnvironmentView& expected) {
         EXPECT_EQ(state_.open->environmentView(), expected);
@@ -171,7 +171,7 @@ TEST_F(SavedEnvironment, theScenesOwnMapChosenAgainLiesAndShinesAsItDidAlsoOnceI
         ChosenEnvironment chosen;
         chosen.environment = scenes::loadScene("glass").environment;
         chosen.environment->source = source;
-        chosen.environment->rotationDegrees = 0.0f; // as maps are loaded
+        chosen.environment->rotationDegrees = 0.0f; // like loaded maps
         state_.open->takeEnvironment(std::move(chosen));
     };
     view(kChosenView);
@@ -192,7 +192,7 @@ TEST_F(SavedEnvironment, theScenesOwnMapChosenAgainLiesAndShinesAsItDidAlsoOnceI
 TEST_F(SavedEnvironment, withoutOneWhatTheLooksSayStaysTheirs) {
     view(kChosenView);
     state_.open->takeEnvironment({});
-    view({0.0f, 5.0f}); // of nothing
+    view({0.0f, 5.0f}); // without an environment
     const std::string file = saved();
     const scenes::Scene scene = scenes::loadScene(file);
     EXPECT_FALSE(scene.environment);

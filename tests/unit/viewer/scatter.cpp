@@ -14,7 +14,7 @@ double luminance(const glm::vec3& color) {
     return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b;
 }
 
-/// A floor of 20 x 20 m at y = 0 that faces up, with a ceiling of it that faces down where `ceilingMetres` is above 0.
+/// A floor of 20 x 20 m at y = 0 that faces up, with a ceiling that faces down if `ceilingMetres` is above 0.
 scenes::Scene floorScene(float ceilingMetres = 0.0f) {
     scenes::Scene scene;
     scene.materials.emplace_back();
@@ -82,21 +82,21 @@ double meanOverFloor(const std::vector<scenes::Light>& lights, Value value) {
 TEST(Scatter, aboutAsManyLightsAsAskedReachAPointWhateverTheirNumber) {
     scenes::Scene scene = floorScene();
     scenes::Node& above = scene.nodes.emplace_back(scene.nodes.front());
-    above.parentFromNode = glm::dmat4(glm::dmat3(1e-3, 0, 0, 0, -1e-3, 0, 0, 0, -1e-3)); // room above, hardly a surface
+    above.parentFromNode = glm::dmat4(glm::dmat3(1e-3, 0, 0, 0, -1e-3, 0, 0, 0, -1e-3)); // space, hardly a surface
     above.parentFromNode[3] = glm::dvec4(9.0, 15.0, 9.0, 1.0);
     for (const int count : {500, 4000}) {
         for (const double wanted : {4.0, 12.0}) {
             const std::vector<scenes::Light> lights = scatterLights(scene, {.count = count, .lightsPerPoint = wanted});
             const double mean = meanOverFloor(lights, [](const auto&, const auto&, double) { return 1.0; });
-            // A quarter of 500 lights is over the points: their number is random to 9 percent, and to 3 percent of
-            // 4000.
+            // A quarter of 500 lights is over the points: their number varies by 9 percent, that of 4000 lights by 3
+            // percent.
             EXPECT_NEAR(mean, wanted, (count < 1000 ? 0.25 : 0.1) * wanted) << count;
             const double lux =
                 meanOverFloor(lights, [](const scenes::Light& light, const glm::dvec3& toLight, double d) {
                     const double window = 1.0 - std::pow(d / double(light.rangeMetres), 4.0);
                     return double(light.intensity) * window * window * (toLight.y / d) / (d * d);
                 });
-            // Edges of the floor are darker, and are measured too.
+            // Edges of the floor are darker and are included.
             EXPECT_NEAR(lux, 0.5, 0.1) << count;
         }
     }
@@ -114,7 +114,7 @@ TEST(Scatter, surfacesOfEveryBuiltinSceneAreAsBrightAndHardlyAnyBurns) {
             // An additive sequence: Roberts 2018.
             const glm::dvec3 at = glm::fract((i + 0.5) * glm::dvec3(0.8191725, 0.6710436, 0.5497005));
             const Surfaces::Place place = surfaces.at(at.x, at.y, at.z);
-            glm::dvec3 radiance(0.0); // of a white surface
+            glm::dvec3 radiance(0.0); // reflected by a white surface
             for (const scenes::Light& light : lights) {
                 const glm::dvec3 toLight = light.positionWS - place.positionWS;
                 const double d = glm::length(toLight), cosine = glm::dot(toLight, place.normalWS) / d;
@@ -143,7 +143,7 @@ TEST(Scatter, coloursAreThoseOfLampsAndOfOneLuminance) {
     }
     EXPECT_GT(warm, 40);
     EXPECT_GT(cool, 2);
-    // Source: CIE standard illuminants A, of 2856 K, and, nearly, D65.
+    // Source: CIE standard illuminants A, of 2856 K, and (approximately) D65.
     const glm::vec3 bulb = lampColor(2856.0), day = lampColor(6500.0);
     EXPECT_NEAR(bulb.r, 1.845f, 0.03f);
     EXPECT_NEAR(bulb.g, 0.826f, 0.03f);
@@ -163,7 +163,7 @@ TEST(Scatter, rangesDifferAndWallsHaveLampsOfTheirOwn) {
     }
     EXPECT_NEAR(above, 100, 30) << "the ceiling is as large as the floor";
     EXPECT_GT(*ranges.rbegin(), 1.5f * *ranges.begin());
-    // Below a floor that nothing is seen from there are none.
+    // There are no lights below the floor, from where nothing is visible.
     for (const scenes::Light& light : lights) EXPECT_TRUE(light.positionWS.y > 0.0 && light.positionWS.y < 8.0);
 }
 

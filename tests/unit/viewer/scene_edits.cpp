@@ -7,7 +7,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// A window that shows a scene's lights a, b and c.
+/// A window with a scene of the lights a, b and c.
 State threeLights() {
     scenes::Scene scene = scenes::loadScene("room");
     scene.lights.assign(3, scene.lights.at(0));
@@ -19,7 +19,7 @@ const Lights& lightsOf(const State& state) {
     return state.open->scene().lights;
 }
 
-/// What undoing would undo.
+/// Returns the edit that undo would revert.
 std::string lastEdit(const State& state) {
     return *state.open->history().undoText();
 }
@@ -204,7 +204,7 @@ TEST(SceneEdits, aChoiceGoesAloneBesidesOrAsARange) {
     EXPECT_EQ(state.allSelectedLights(), std::set<int>());
     selectAllLights(state);
     EXPECT_EQ(state.allSelectedLights().size(), 3u);
-    state.selectedLight = 1; // as a marker does
+    state.selectedLight = 1; // as a click on a marker does
     EXPECT_EQ(state.allSelectedLights().size(), 3u) << "it was one of them";
     addLight(state, 0.2);
     EXPECT_EQ(state.allSelectedLights(), std::set<int>{3});
@@ -328,7 +328,7 @@ TEST(SceneEdits, revertGoesBackOrForthToTheSavedSceneAndElseAsksForTheFile) {
     redo(state);
     EXPECT_EQ(lightsOf(state)[0].intensity, 0.75f) << "what was reverted can be redone";
     for (int i = 0; i < 3; ++i) undo(state);
-    change(0.875f); // in the place of what was saved
+    change(0.875f); // replaces the saved edit
     revert(state);
     EXPECT_EQ(state.requests.open, "/saved.json");
 }

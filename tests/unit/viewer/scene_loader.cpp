@@ -37,7 +37,7 @@ TEST(SceneLoader, aNewRequestTakesThePlaceOfAllBeforeWhichAreNotLoadedAtOnce) {
     EXPECT_TRUE(result->scene) << result->error;
     EXPECT_FALSE(loader.take());
     EXPECT_LE(most, before + 3) << "not one for each; some that ended may still be counted";
-    loader.start("room", {}); // what has come to rest begins again
+    loader.start("room", {}); // an idle loader starts again
     wait(loader);
     EXPECT_TRUE(loader.take());
 }

@@ -19,7 +19,7 @@ using namespace test;
 using tessera::test::TempFolder;
 using testing::HasSubstr;
 
-/// Switches scenes as the window does, without one.
+/// Switches scenes as the window does, without a window.
 class SceneSwitchTest : public testing::Test {
 protected:
     SceneSwitchTest() {
@@ -41,7 +41,7 @@ protected:
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         EXPECT_TRUE(switch_.hasResult()) << "after a minute";
     }
-    /// Opens a scene and waits for it; whether it is there, else why not is in failure_.
+    /// Opens a scene and waits for it. Returns whether it is open; otherwise failure_ holds the reason.
     bool open(const std::string& source, const scenes::LoadOptions& load = {}) {
         switch_.open(source, load);
         waitForResult();
@@ -58,7 +58,7 @@ protected:
         }
     }
 
-    /// A scene of two cameras; other scenes need not look like this.
+    /// A scene of two cameras, which other scenes lack.
     std::string sceneFile(const std::string& name) {
         return folder_
             .write(name, R"({"tessera": 1, "base": {"file": "builtin:room"},
@@ -76,7 +76,7 @@ protected:
         for (Look& look : state_.looks) look.settings.camera = 1;
     }
     std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
-    /// The camera that a file is shown by equals, in pictures of any shape, that of the command that is copied.
+    /// Expects the copied command to give this file the displayed camera, for images of any aspect ratio.
     void expectCommandShows(const std::string& file, scenes::LoadOptions load) {
         for (const double aspect : {0.5, 4.0}) {
             load.aspect = aspect;
@@ -85,7 +85,7 @@ protected:
         }
     }
 
-    static constexpr double kMadeForAspect = 16.0 / 9.0; ///< what cameras of built-in scenes are made for
+    static constexpr double kMadeForAspect = 16.0 / 9.0; ///< aspect ratio of the cameras of built-in scenes
 
     TempFolder folder_;
     std::string failure_;
@@ -165,7 +165,7 @@ TEST_F(SceneSwitchTest, aCameraThatWasSavedWhereItIsNotCountsAsMovedWhenItsFileI
 }
 
 TEST_F(SceneSwitchTest, aTurnOfTheEnvironmentThatWasSavedIsNeitherMadeTwiceNorOfOtherScenes) {
-    folder_.write("even.pfm", "PF\n1 1\n-1.0\n" + std::string(12, '?')); // 0.747 thrice
+    folder_.write("even.pfm", "PF\n1 1\n-1.0\n" + std::string(12, '?')); // one texel of 0.747 in each channel
     const auto turned = [&](const std::string& name, int degrees) {
         return folder_
             .write(name, R"({"tessera": 1, "base": {"file": "builtin:room"}, "environment": {"map": "even.pfm"},
@@ -186,7 +186,7 @@ TEST_F(SceneSwitchTest, aTurnOfTheEnvironmentThatWasSavedIsNeitherMadeTwiceNorOf
     ASSERT_TRUE(open(file));
     EXPECT_EQ(seen(), 40.0f);
     EXPECT_EQ(degrees(), 0.0f);
-    viewEnvironment(state_, {30.0f, 2.0f}); // and not saved
+    viewEnvironment(state_, {30.0f, 2.0f}); // not saved
     ASSERT_TRUE(open(file));
     EXPECT_EQ(seen(), 40.0f) << "edits are left behind with their scene";
     EXPECT_EQ(environmentSeenBy(state_.looks[1]), state_.open->environmentView());

@@ -1,4 +1,4 @@
-// The panel Shadows, and what it lays over the picture.
+// The panel Shadows, and its overlay on the image.
 #include <cmath>
 #include <string>
 #include <variant>
@@ -17,7 +17,7 @@ class ShadowsPanel : public test::PanelTest {};
 using testing::HasSubstr;
 using testing::Not;
 
-/// Shadow maps of so many lights, which are those of the scene.
+/// Shadow maps of the scene's first lights, as many as `lights`.
 engine::DrawnShadows mapsOf(std::size_t lights) {
     engine::DrawnShadows shadows;
     shadows.hasMaps = true;
@@ -45,7 +45,7 @@ TEST_F(ShadowsPanel, theShadowsPanelTellsWhatHoldsTheShadowsOfWhichLight) {
     EXPECT_THAT(text(), testing::AllOf(HasSubstr("traced"), Not(HasSubstr("Atlas"))));
     facts.shadows[0]->lights.clear();
     EXPECT_THAT(text(), HasSubstr("No light in view casts shadows"));
-    // Lights that were deleted since the frame have no row.
+    // Lights deleted since the frame have no row.
     facts.shadows[0] = mapsOf(3);
     state.open->replaceLights("delete", 1, state.open->scene().lights.size() - 1, {});
     EXPECT_THAT(text(), Not(HasSubstr("no room")));
@@ -86,7 +86,7 @@ TEST_F(ShadowsPanel, ofManyLightsTheShadowsPanelLaysOutThoseInViewAndAClickSelec
     for (scenes::Light& light : lamps) light.name = "lamp";
     state.open->replaceLights("add", 0, state.open->scene().lights.size(), lamps);
     Facts facts;
-    ImGui::GetStyle().ItemSpacing.y += 3.0f; // cells have a padding of their own
+    ImGui::GetStyle().ItemSpacing.y += 3.0f; // cells have a different padding
     const ImGuiWindow* table = nullptr;
     const auto verticesOf = [&](std::size_t lights) {
         facts.shadows[0] = mapsOf(lights);

@@ -29,7 +29,7 @@ TEST(ShownColor, whatIsPickedIsTheLinearValueOfItsCode) {
     EXPECT_NEAR(picked.x, 0.57758f, 1e-5f);
     EXPECT_EQ(picked.y, before.y) << "a channel that was not edited changed";
     EXPECT_EQ(picked.z, before.z);
-    // The picker's field of digits rounds all channels to bytes.
+    // The picker's digits round all channels to bytes.
     const auto rounded = [](float value) { return std::round(255.0f * value) / 255.0f; };
     const glm::vec3 typed = colorOfCode({200.0f / 255.0f, rounded(code.y), rounded(code.z)}, code, before, 1.0f);
     EXPECT_EQ(typed, glm::vec3(picked.x, before.y, before.z));

@@ -11,13 +11,13 @@
 namespace tessera::viewer {
 namespace {
 
-/// Of a colour as the display shows it. Source: WCAG 2.2, "relative luminance".
+/// Relative luminance of a displayed colour. Source: WCAG 2.2, "relative luminance".
 double relativeLuminance(ImGuiCol color) {
     const ImVec4& code = ImGui::GetStyle().Colors[color];
     return 0.2126 * linearFromSrgb(code.x) + 0.7152 * linearFromSrgb(code.y) + 0.0722 * linearFromSrgb(code.z);
 }
 
-/// Source: WCAG 2.2, "contrast ratio".
+/// Contrast ratio of two colours. Source: WCAG 2.2, "contrast ratio".
 double contrast(ImGuiCol a, ImGuiCol b) {
     const auto [darker, brighter] = std::minmax({relativeLuminance(a), relativeLuminance(b)});
     return (brighter + 0.05) / (darker + 0.05);
@@ -44,7 +44,7 @@ TEST_F(Theme, fieldsStandOutFromPanelsByTheirBorders) {
 
 TEST_F(Theme, theGrabOfASliderLeavesItsNumberAlone) {
     EXPECT_GE(contrast(ImGuiCol_Text, ImGuiCol_FrameBg), kLeastOfText);
-    // The number stands in the middle of the frame, and the value in the middle of its range.
+    // The number is at the middle of the frame, and the value in the middle of its range.
     float top = FLT_MAX, bottom = 0.0f, numberTop = 0.0f;
     const ImU32 color = ImGui::GetColorU32(ImGuiCol_SliderGrab);
     show([&] {
@@ -58,7 +58,7 @@ TEST_F(Theme, theGrabOfASliderLeavesItsNumberAlone) {
             bottom = std::max(bottom, vertex.pos.y);
         }
     });
-    constexpr float kDigitShare = 0.8f; // of a line of DejaVu Sans; below it hang commas
+    constexpr float kDigitShare = 0.8f; // of a line of DejaVu Sans, above hanging commas
     EXPECT_GE(top, numberTop + kDigitShare * ImGui::GetFontSize());
     EXPECT_GE(bottom - top, 3.5f) << "there is no grab";
 }

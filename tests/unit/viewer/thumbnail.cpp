@@ -1,4 +1,4 @@
-// Small copies of pictures, and their rows in the panel of materials.
+// Small copies of images, and their rows in the panel of materials.
 #include "viewer/edit/Thumbnail.h"
 
 #include <cstring>
@@ -11,7 +11,7 @@
 namespace tessera::viewer {
 namespace {
 
-/// 8 x 4 texels, black at the left and white at the right, in a format of any kind of number.
+/// An image of 8 x 4 texels, black at the left and white at the right, in a format of any number type.
 template <typename Component>
 scenes::Image halves(scenes::TexelFormat format, Component white) {
     scenes::Image image{"pictures/halves.png", format, 8, 4, {}};

@@ -29,7 +29,7 @@ TEST(Timings, aPassWithoutATimeOfTheGpuShowsThatOfTheCpu) {
 TEST(Timings, whatIsTypicalAreTheMediansOfFramesLikeTheLatest) {
     Timings timings;
     EXPECT_FALSE(timings.typical(0));
-    FrameTimes first = frame(1, 0, 900.0); // compiled its shaders
+    FrameTimes first = frame(1, 0, 900.0); // includes compiling its shaders
     first.isUnlike = true;
     timings.add(first);
     ASSERT_TRUE(timings.typical(0));
@@ -72,7 +72,7 @@ TEST(Timings, picturesASecondAreThoseThatFollowOneAnotherWhileSomethingMoves) {
         drawn.startedMs = startedMs;
         drawn.isPassing = isPassing;
         timings.add(drawn);
-        drawn.side = 1; // of the same picture
+        drawn.side = 1; // of the same image
         timings.add(drawn);
         return timings.picturesPerSecond();
     };
@@ -84,7 +84,7 @@ TEST(Timings, picturesASecondAreThoseThatFollowOneAnotherWhileSomethingMoves) {
     EXPECT_FALSE(draw(5000.0, true));
     for (int i = 1; i <= 100; ++i) draw(5000.0 + 40.0 * i, true);
     EXPECT_EQ(timings.picturesPerSecond(), 25.0);
-    draw(9500.0, true); // it stood still meanwhile
+    draw(9500.0, true); // static in between
     EXPECT_FALSE(draw(9520.0, true));
 }
 

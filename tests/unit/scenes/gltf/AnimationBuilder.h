@@ -10,11 +10,11 @@
 #include "scenes/Pose.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 
-/// glTF documents with clips, for the importer's tests, and what they show at a time.
+/// glTF documents with clips for the importer's tests, and their poses at a time.
 namespace tessera::scenes::gltf::test {
 
 inline constexpr int kFloatType = 5126, kShortType = 5122, kUnsignedByteType = 5121, kUnsignedShortType = 5123;
-inline constexpr float kHalfRoot = 0.70710678f; ///< of 2
+inline constexpr float kHalfRoot = 0.70710678f; ///< half of the square root of 2
 
 /// Adds a clip with one channel.
 inline void addClip(Builder& builder, const std::vector<float>& times, int output, Json target,
@@ -26,7 +26,7 @@ inline void addClip(Builder& builder, const std::vector<float>& times, int outpu
          {"channels", Json::array({{{"sampler", 0}, {"target", std::move(target)}}})}});
 }
 
-/// Adds a clip of a node's "translation", "rotation", "scale" or "weights", with these values at as many times.
+/// Adds a clip of a node's "translation", "rotation", "scale" or "weights", with one value per time.
 template <typename T = float>
 void animate(Builder& builder, int node, const char* path, const char* type, const std::vector<T>& values,
              bool isNormalized = false, const char* interpolation = "LINEAR",
@@ -35,12 +35,12 @@ void animate(Builder& builder, int node, const char* path, const char* type, con
     addClip(builder, times, output, {{"node", node}, {"path", path}}, interpolation);
 }
 
-/// The target of a channel that changes what a pointer of KHR_animation_pointer names.
+/// A channel target of KHR_animation_pointer.
 inline Json pointerTo(const std::string& pointer) {
     return {{"path", "pointer"}, {"extensions", {{"KHR_animation_pointer", {{"pointer", pointer}}}}}};
 }
 
-/// Adds a clip of what a pointer names, from the values at 0 s to as many at 1 s.
+/// Adds a clip of a pointer's property: the first half of `values` at 0 s, the second at 1 s.
 inline void addPointer(Builder& builder, const std::string& pointer, const std::vector<float>& values) {
     constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
     const int output = builder.add(kTypes[values.size() / 2 - 1], values);
@@ -54,7 +54,7 @@ inline Builder movingTriangle() {
     return builder;
 }
 
-/// Places of the vertices that the scene draws, at a time.
+/// World positions of the drawn vertices at a time.
 inline std::vector<glm::dvec3> drawnAt(Scene scene, double timeSeconds) {
     checkScene(scene);
     poseScene(scene, timeSeconds);

@@ -70,7 +70,7 @@ struct Grid {
         floats("WEIGHTS_0", GeometryAttribute::GENERIC, 4, weights);
     }
 
-    /// A document that shows it without compression, on a skin of two joints.
+    /// A document of the uncompressed grid, on a skin of two joints.
     Builder document() const {
         Builder builder;
         builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0}, {}, {}], "scenes": [{"nodes": [0, 1, 2]}],
@@ -104,7 +104,7 @@ struct Grid {
         return mesh;
     }
 
-    /// By names, in the order of mesh().
+    /// Identifiers of the attributes by name, in the order of mesh().
     Json identifiers() const {
         Json named = Json::object();
         for (std::size_t i = 0; i < attributes.size(); ++i) named[attributes[i].name] = i;
@@ -117,7 +117,7 @@ struct Grid {
         EXPECT_TRUE(status.ok()) << status.error_msg_string();
         return bytesOf(std::vector<char>(buffer.data(), buffer.data() + buffer.size()));
     }
-    /// All bits of all values, and vertices and triangles in their order.
+    /// A stream that keeps all bits of all values, and the order of vertices and triangles.
     Bytes lossless() const {
         draco::Encoder encoder;
         encoder.SetEncodingMethod(draco::MESH_SEQUENTIAL_ENCODING);
@@ -136,7 +136,7 @@ struct Grid {
     }
 };
 
-/// The document of a grid whose stream stands for all accessors' data.
+/// A grid's document with a stream in place of the data of all accessors.
 inline Builder compressed(const Grid& grid, const Bytes& stream) {
     Builder builder = grid.document();
     for (const auto& [name, accessor] : builder.primitive()["attributes"].items())
@@ -146,7 +146,7 @@ inline Builder compressed(const Grid& grid, const Bytes& stream) {
     return builder;
 }
 
-/// Another stream in a document that compressed() made.
+/// Replaces the stream of a document that compressed() made.
 inline void setStream(Builder& builder, const Bytes& stream) {
     builder.json["buffers"].back() = {{"uri", dataUri(stream)}, {"byteLength", stream.size()}};
     builder.json["bufferViews"].back()["byteLength"] = stream.size();

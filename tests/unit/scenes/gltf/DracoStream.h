@@ -6,7 +6,7 @@
 
 namespace tessera::scenes::gltf::test {
 
-/// What the stream of dracoTriangle() says of itself.
+/// Header values of the stream of dracoTriangle().
 struct DracoClaims {
     std::uint32_t faces = 1;        ///< the first 2^15 are written
     std::uint32_t vertices = 3;     ///< at most 2^16 - 1; three are written
@@ -40,7 +40,7 @@ inline Bytes dracoTriangle(DracoClaims claims = {}) {
     return bytesOf(bytes);
 }
 
-/// Gives the builder's primitive a stream that holds the attributes of these identifiers.
+/// Gives the builder's primitive a stream with attributes of these identifiers.
 inline Json& addDraco(Builder& builder, const Bytes& stream,
                       const Json& identifiers = Json::object({{"POSITION", 0}})) {
     builder.merge(R"({"extensionsUsed": ["KHR_draco_mesh_compression"],

@@ -64,7 +64,7 @@ public:
     }
 };
 
-/// The number of a component's type in glTF.
+/// The glTF number of a component type.
 template <typename T>
 inline constexpr int kComponentType = std::is_floating_point_v<T> ? 5126
                                       : sizeof(T) == 4            ? 5125
@@ -81,7 +81,7 @@ public:
         add("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0});
     }
 
-    /// A buffer with one view of all its bytes; returns the view's number.
+    /// Adds a buffer with one view of all its bytes; returns the view's number.
     int addView(const Bytes& bytes, int byteStride = 0) {
         json["buffers"].push_back({{"uri", dataUri(bytes)}, {"byteLength", bytes.size()}});
         json["bufferViews"].push_back({{"buffer", json["buffers"].size() - 1}, {"byteLength", bytes.size()}});
@@ -96,7 +96,7 @@ public:
         return int(json["accessors"].size()) - 1;
     }
 
-    /// An accessor in a buffer of its own, of as many elements as the values make; returns its number.
+    /// Adds an accessor with a buffer of its own; the values determine its count. Returns its number.
     template <typename T = float>
     int add(const char* type, const std::vector<T>& values, bool normalized = false, int byteStride = 0) {
         const std::size_t components = *type == 'S' ? 1 : *type == 'M' ? 16 : std::size_t(type[3] - '0');
@@ -104,7 +104,7 @@ public:
         return addAccessor(addView(bytesOf(values), byteStride), kComponentType<T>, type,
                            values.size() * sizeof(T) / bytesEach, normalized);
     }
-    /// The same for an attribute of the primitive.
+    /// Same, for an attribute of the primitive.
     template <typename T = float>
     void attribute(const char* name, const char* type, const std::vector<T>& values, bool normalized = false,
                    int byteStride = 0) {
@@ -138,7 +138,7 @@ public:
         return json["materials"][0];
     }
 
-    /// Adds texture 0 of an embedded picture, and texture coordinates.
+    /// Adds texture 0 with an embedded image, and texture coordinates.
     void addTexture(const Bytes& picture = pngRedBlue()) {
         Json& attributes = primitive()["attributes"];
         if (!attributes.contains("TEXCOORD_0"))
@@ -149,7 +149,7 @@ public:
 
     Scene import() const { return underLedger(importGltf, folder.write("model.gltf", json.dump()), {}, wishes); }
 
-    /// What a strict import refuses the document with, or "" when it does not.
+    /// Returns the error of a strict import, or "" without one.
     std::string error(std::optional<std::uint64_t> limitBytes = {}) const {
         return errorOf(folder.write("model.gltf", json.dump()), wishes, limitBytes);
     }
@@ -165,7 +165,7 @@ public:
         return "";
     }
 
-    /// An import that is not strict warns of the same, or refuses it too.
+    /// Expects a lenient import to warn of the flaw or to fail with it.
     static void expectTold(const std::string& flaw, const std::filesystem::path& file, ImportWishes asked,
                            std::optional<std::uint64_t> limitBytes) {
         asked.isStrict = false;
@@ -184,7 +184,7 @@ public:
     Folder folder;
 };
 
-/// The triangle with a material to which a patch adds. The patch may use texture 0.
+/// The triangle with a material that a patch changes. The patch may use texture 0.
 inline Builder withMaterial(const char* patch) {
     Builder builder;
     builder.material().merge_patch(Json::parse(patch));
@@ -192,7 +192,7 @@ inline Builder withMaterial(const char* patch) {
     return builder;
 }
 
-/// That material as it is imported.
+/// Returns that material as imported.
 inline Material importedMaterial(const char* patch) {
     const Scene scene = withMaterial(patch).import();
     return scene.materials.at(std::size_t(scene.nodes.at(0).instances.at(0).material));

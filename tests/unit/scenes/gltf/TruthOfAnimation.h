@@ -10,10 +10,9 @@
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 
-/// Where the vertices of a glTF file are at a time of a clip, computed a second time from the file: own reading of
-/// accessors, linear search of keys, turns by axis and angle, splines by de Casteljau, and points that climb the
-/// hierarchy node by node instead of products of matrices. It shares nothing with the importer and the poses but the
-/// vectors of GLM.
+/// Reference for the vertices of a glTF file at a time of a clip, independent of the importer: its own accessor reader,
+/// linear search of keys, rotations by axis and angle, splines by de Casteljau, and points transformed node by node up
+/// the hierarchy instead of by matrix products. It shares only the vectors of GLM with the importer and the poses.
 namespace tessera::scenes::gltf::test {
 
 class TruthOfAnimation {
@@ -23,7 +22,7 @@ public:
     /// A triangle's corner.
     struct Corner {
         Point placeWS{0.0};
-        Point normalWS{0.0}; ///< not of unit length; of the triangle where the mesh has no normals
+        Point normalWS{0.0}; ///< not normalised; the triangle's where the mesh has no normals
         bool mirrored = false;
     };
 
@@ -54,7 +53,7 @@ public:
 
     std::size_t clips() const { return listOf(json_, "animations").size(); }
 
-    /// When the last key of a clip is.
+    /// Time of a clip's last key.
     double lengthSeconds(std::size_t clip) const {
         double seconds = 0.0;
         for (const Json& sampler : json_["animations"][clip]["samplers"])
@@ -74,10 +73,10 @@ public:
     }
 
     std::size_t skins() const { return listOf(json_, "skins").size(); }
-    /// Of the first skin.
+    /// Number of joints of the first skin.
     std::size_t joints() const { return json_["skins"][0]["joints"].size(); }
-    /// What the matrix of a joint of the first skin makes of a place (`w` 1) or a direction (0) of the space in which
-    /// the mesh was bound, at the time of the latest corners().
+    /// Transforms a position (`w` 1) or direction (0) from the bind space of the first skin by a joint's matrix, at the
+    /// time of the latest corners().
     Point byJoint(std::size_t joint, const Point& p, double w) const {
         const Json& skin = json_["skins"][0];
         const bool isBound = skin.contains("inverseBindMatrices");
@@ -192,7 +191,7 @@ private:
     }
     static Numbers inverse(const Numbers& q) { return {-q[0], -q[1], -q[2], q[3]}; }
 
-    /// The part `share` of the turn from one rotation to another, by its axis and angle.
+    /// Interpolates rotations by axis and angle.
     static Numbers turned(const Numbers& from, const Numbers& to, double share) {
         Numbers turn = product(inverse(from), to);
         if (turn[3] < 0.0)
@@ -285,7 +284,7 @@ private:
         return p + 2.0 * (q[3] * across + glm::cross(axis, across));
     }
 
-    /// `w` 1 for places, 0 for directions.
+    /// Transforms from node to world space; `w` is 1 for positions, 0 for directions.
     Point outOf(int node, Point p, double w) const {
         for (; node >= 0; node = parents_[std::size_t(node)]) {
             const Parts& parts = parts_[std::size_t(node)];
@@ -384,7 +383,7 @@ private:
         else
             all.insert(all.end(), corners.begin(), corners.end());
         if (attributes.contains("NORMAL")) return;
-        for (std::size_t i = first; i + 2 < all.size(); i += 3) { // flat
+        for (std::size_t i = first; i + 2 < all.size(); i += 3) { // flat normals
             const Point normalWS = glm::cross(all[i + 1].placeWS - all[i].placeWS, all[i + 2].placeWS - all[i].placeWS);
             for (std::size_t corner = i; corner < i + 3; ++corner) all[corner].normalWS = normalWS;
         }

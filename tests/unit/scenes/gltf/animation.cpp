@@ -1,4 +1,4 @@
-// Clips of glTF files: what their channels say of nodes, and what of them is refused or left out.
+// Clips of glTF files: channels of nodes, and refused or omitted ones.
 #include <limits>
 
 #include "scenes/Clips.h"
@@ -73,7 +73,7 @@ TEST(GltfAnimation, valuesThatCannotBeAreRefusedByName) {
                 HasSubstr("has 2 elements, but 2 keys of scale need 6"));
 }
 
-/// A key of CUBICSPLINE is a tangent, a value and a tangent; tangents of zero are those of a curve that rests there.
+/// A key of CUBICSPLINE is an in-tangent, a value and an out-tangent; zero tangents are valid.
 TEST(GltfAnimation, ofACubicKeyTheValueAloneMustBeARotation) {
     const auto with = [](const std::vector<float>& values) {
         Builder builder = movingTriangle();
@@ -85,7 +85,7 @@ TEST(GltfAnimation, ofACubicKeyTheValueAloneMustBeARotation) {
     values[4 + 3] = values[16 + 3] = 1.0f;
     EXPECT_NO_THROW(with(values).import());
     values[16 + 3] = 0.0f;
-    values[12] = 1.0f; // the tangent into it
+    values[12] = 1.0f; // its in-tangent
     EXPECT_THAT(with(values).error(), HasSubstr("key 1 is the zero quaternion"));
 }
 

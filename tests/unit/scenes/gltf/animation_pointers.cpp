@@ -1,4 +1,4 @@
-// What KHR_animation_pointer names: numbers of lights, materials, textures and cameras.
+// Properties that KHR_animation_pointer animates, of lights, materials, textures and cameras.
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-/// All clips of a scene at a time.
+/// Poses a scene by all of its clips.
 void poseAll(Scene& scene, double timeSeconds) {
     scene.rig.playing.clear();
     for (std::size_t clip = 0; clip < scene.rig.clips.size(); ++clip) scene.rig.playing.push_back(int(clip));
@@ -39,7 +39,7 @@ TEST(GltfAnimation, pointersReachLightsAndMaterials) {
     EXPECT_FLOAT_EQ(scene.materials[0].baseColor.y, 1.0f);
 }
 
-/// Plain integers are the numbers that they are, which of a node's own properties no file may hold.
+/// Integers that are not normalised are plain numbers; glTF forbids them for properties of nodes.
 TEST(GltfAnimation, pointersTakePlainIntegers) {
     Builder builder;
     builder.material();
@@ -50,8 +50,8 @@ TEST(GltfAnimation, pointersTakePlainIntegers) {
     EXPECT_FLOAT_EQ(scene.materials[0].perceptualRoughness, 0.5f);
 }
 
-/// Its keys state it in the space of the mesh, as the material does. A sampler that another channel takes as well keeps
-/// its numbers there.
+/// Keys give the thickness in mesh space, as the material does. If another channel uses the same sampler, its values
+/// stay unscaled there.
 TEST(GltfAnimation, aThicknessIsScaledAsTheNodesThatShowIt) {
     const auto posed = [](const char* nodes) {
         Builder builder;
@@ -102,8 +102,8 @@ TEST(GltfAnimation, pointersReachEveryNumberOfASpotLight) {
     EXPECT_EQ(cones({2}, 0.0), glm::vec2(0.0f, 0.25f));
 }
 
-/// Booleans are steps whatever the sampler says, and a node that a clip shows is in the scene though it is hidden at
-/// rest.
+/// Booleans are steps whatever the sampler's interpolation. A node that a clip shows is in the scene although it is
+/// hidden without the clip.
 TEST(GltfAnimation, clipsHideAndShowNodesWithTheirMeshesAndLights) {
     Builder builder;
     builder.merge(R"({"nodes": [{"mesh": 0, "scale": [2, 2, 2]},
@@ -181,7 +181,7 @@ TEST(GltfAnimation, emissionIsTheProductOfItsFactorAndItsStrengthAtEachTime) {
             "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}}})");
         for (const auto& [pointer, values] : channels) addPointer(builder, pointer, values);
         Json& animations = builder.json["animations"];
-        while (animations.size() > 1) { // into one clip
+        while (animations.size() > 1) { // merges all into one clip
             const Json last = animations.back();
             animations.erase(animations.size() - 1);
             Json channel = last["channels"][0];
@@ -254,7 +254,7 @@ TEST(GltfAnimation, pointersReachTheLensesOfCameras) {
     addPointer(builder, "/cameras/1/orthographic/ymag", {-2, -4});
     addPointer(builder, "/cameras/1/orthographic/znear", {0, 1});
     addPointer(builder, "/cameras/1/orthographic/zfar", {8, 4});
-    addPointer(builder, "/cameras/1/perspective/yfov", {1, 2}); // it has none
+    addPointer(builder, "/cameras/1/perspective/yfov", {1, 2}); // an orthographic camera has none
     Scene scene = builder.import();
     ASSERT_EQ(scene.warnings.size(), 1u);
     EXPECT_THAT(scene.warnings[0], HasSubstr("1 channel changes something that cannot be animated, and is left out: "
@@ -272,7 +272,7 @@ TEST(GltfAnimation, pointersReachTheLensesOfCameras) {
     }
     playClip(scene, "none");
     EXPECT_EQ(scene.cameras, atRest);
-    // Who says another lens than the model's owns it.
+    // An edited member of a camera is no longer animated.
     const Camera before = scene.cameras[0];
     scene.cameras[0].fovYRadians = 0.25;
     ownCamera(scene, 0, before);

@@ -6,7 +6,7 @@
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 #include "tests/unit/scenes/gltf/TruthOfAnimation.h"
 
-/// Deformed vertices against a second computation from the files.
+/// Deformed vertices compared with an independent computation from the files.
 namespace tessera::scenes::gltf::test {
 namespace {
 
@@ -32,19 +32,19 @@ std::vector<DrawnCorner> drawnCorners(const Scene& scene) {
     return corners;
 }
 
-/// NaN stays.
+/// Maximum that keeps NaN.
 void widen(double& most, double difference) {
     if (!(difference <= most)) most = difference;
 }
 
-/// The largest distance of a place from the truth, as a share of the picture's extent, and of a normal's direction.
+/// Largest errors of positions, as a fraction of the model's extent, and of normal directions.
 struct Difference {
     double place = 0.0, normal = 0.0;
-    bool hasOtherSides = false; ///< some corner is mirrored, and its mesh is not, or the other way round
+    bool hasOtherSides = false; ///< some corner is mirrored but its mesh is not, or vice versa
 };
 
-/// The largest distance of a joint's matrix from the truth of the latest corners(), as a share of the matrix: of a
-/// model that has one skin.
+/// Largest error of a joint's matrix at the time of the latest corners(), as a fraction of the matrix. 0 unless the
+/// model has exactly one skin.
 double differenceOfJoints(const Scene& scene, const TruthOfAnimation& truth) {
     if (truth.skins() != 1 || scene.rig.skins.empty()) return 0.0;
     const Skin& skin = scene.rig.skins.front();
@@ -89,7 +89,7 @@ Difference differenceAt(Scene& scene, TruthOfAnimation& truth, int clip, double 
     return difference;
 }
 
-/// Places, normals and joints at a time of a clip; sides too where `hasSides`.
+/// Expects correct positions, normals and joints at a time of a clip, and sides where `hasSides`.
 void expectTrueAt(Scene& scene, TruthOfAnimation& truth, int clip, double time, bool hasSides) {
     SCOPED_TRACE(testing::Message() << "clip " << clip << " at " << time << " s");
     const Difference difference = differenceAt(scene, truth, clip, time);
@@ -99,7 +99,7 @@ void expectTrueAt(Scene& scene, TruthOfAnimation& truth, int clip, double time, 
     EXPECT_LT(differenceOfJoints(scene, truth), 1e-5);
 }
 
-/// Positions and normals of all clips, and of none, at times within and without.
+/// Compares positions and normals of all clips, and of none, at times inside and outside of the clip.
 void expectTrue(const std::filesystem::path& file) {
     SCOPED_TRACE(file.string());
     Scene scene = underLedger(importGltf, file);
@@ -116,7 +116,7 @@ void expectTrue(const std::filesystem::path& file) {
     }
 }
 
-/// A cloud of triangles that a chain of joints, one of which mirrors, and two targets deform, by every interpolation.
+/// A cloud of triangles deformed by a chain of joints, one of them mirroring, and two targets, by every interpolation.
 Builder randomModel(unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> even(-1.0f, 1.0f);
@@ -203,7 +203,7 @@ TEST(AnimationTruth, randomSkinsAndTargetsAreWhereASecondComputationPutsThem) {
 }
 
 TEST(AnimationTruth, modelsOfTheRepositoryAreWhereASecondComputationPutsThem) {
-    for (const char* model : {"skinned_bar.gltf", "morphing_box.gltf"}) // those that are deformed
+    for (const char* model : {"skinned_bar.gltf", "morphing_box.gltf"}) // the deformed models
         expectTrue(tessera::test::ownModelsFolder() / model);
 }
 
@@ -225,7 +225,7 @@ TEST(AnimationTruth, modelsOfTheAssetsFolderAreWhereASecondComputationPutsThem) 
     if (compared == 0) GTEST_SKIP() << "there is no folder of third-party models that has any of them";
 }
 
-/// Those of Debian's assimp-testmodels that move or are deformed; what the others are refused for, GltfSweep prints.
+/// Animated or deformed models of Debian's assimp-testmodels; GltfSweep prints why others are refused.
 TEST(AnimationTruth, packagedModelsAreWhereASecondComputationPutsThem) {
     const std::filesystem::path folder = "/usr/share/assimp/models/glTF2";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the package assimp-testmodels is not installed";

@@ -5,7 +5,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-/// The triangle with a skin of joints 1 and 2, of which 2 is a child of 1, 1 along x. Every vertex follows joint 2.
+/// The triangle with a skin of joints 1 and 2; 2 is a child of 1, moved 1 along x. Every vertex follows joint 2.
 Builder skinnedTriangle() {
     Builder builder;
     builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0, "translation": [7, 7, 7]}, {"children": [2]},
@@ -40,7 +40,7 @@ TEST(GltfSkins, inverseBindMatricesComeFirst) {
     EXPECT_THAT(builder.error(), HasSubstr("accessor 3 must be of MAT4"));
 }
 
-/// The fourth row is 0 0 0 1 by the specification, and whatever a file has in its place moves nothing.
+/// The fourth row is 0 0 0 1 by the specification; other values in a file have no effect.
 TEST(GltfSkins, theLastRowOfAnInverseBindMatrixIsNotRead) {
     Builder builder = skinnedTriangle();
     std::vector<float> matrices(32, 0.0f);
@@ -57,11 +57,11 @@ TEST(GltfSkins, aVertexMayFollowEightJoints) {
     Builder builder = skinnedTriangle();
     builder.attribute("JOINTS_1", "VEC4", std::vector<std::uint16_t>(12, 0));
     builder.attribute("WEIGHTS_1", "VEC4", std::vector<std::uint8_t>(12, 85), true); // four thirds in all
-    // 1 of joint 2 and 4/3 of joint 1.
+    // Weights 1 of joint 2 and 4/3 of joint 1.
     expectPlace(drawnAt(builder.import(), 0.0)[0], {1.0 / (1.0 + 4.0 / 3.0), 0.0, 0.0});
 }
 
-/// A chain of them, 1 mm each, whose middle one turns.
+/// A chain of joints, 1 mm each; the middle one rotates.
 TEST(GltfSkins, tenThousandJointsAreFollowed) {
     constexpr int kJoints = 10'000, kMiddle = 5'000;
     Builder builder = skinnedTriangle();
@@ -111,7 +111,7 @@ TEST(GltfSkins, instancesOfOneMeshAreDeformedEachByItsOwnSkin) {
     builder.json["scenes"][0]["nodes"] = Json::array({0, 1, 3, 4});
     const std::vector<glm::dvec3> places = drawnAt(builder.import(), 0.0);
     ASSERT_EQ(places.size(), 9u);
-    expectPlace(places[0], {0.0, 0.0, 0.0}); // node 4, plain; skinned ones stand behind all nodes
+    expectPlace(places[0], {0.0, 0.0, 0.0}); // node 4, unskinned; skinned nodes come after all others
     expectPlace(places[3], {1.0, 0.0, 0.0});
     expectPlace(places[6], {0.0, 0.0, 0.0});
 }
@@ -225,7 +225,7 @@ TEST(GltfMorphTargets, weightsOfNodesAreChargedByTargetsAndNodes) {
     };
     EXPECT_EQ(errorWith(3000, 30), "");
     EXPECT_EQ(errorWith(30, 3000), "");
-    // 108 MB beside what either takes: 36 KB a node
+    // 108 MB more than either alone: 36 KB per node
     EXPECT_THAT(errorWith(3000, 3000), HasSubstr("/nodes/"));
 }
 

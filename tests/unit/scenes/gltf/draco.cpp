@@ -18,7 +18,7 @@ float mostApart(const Vector& a, const Vector& b) {
     return most;
 }
 
-/// The triangles by vertices, each turned so that its smallest is first.
+/// Triangles by vertex, each rotated so that its smallest index is first.
 std::multiset<std::array<std::uint32_t, 3>> turnedTriangles(const std::vector<std::uint32_t>& corners,
                                                             const std::vector<std::uint32_t>& vertices) {
     std::multiset<std::array<std::uint32_t, 3>> triangles;
@@ -37,7 +37,7 @@ std::vector<std::uint32_t> inOrder(std::size_t count) {
     return all;
 }
 
-/// `got` is `wanted` but for the order of vertices and triangles, and for what quantisation takes. The steps are those
+/// Expects `got` to equal `wanted` up to the order of vertices and triangles, and to quantisation. The steps are those
 /// of the widest component: 5 in 14 bits, 1 in 12, 2 in 12; 10 bits of a normal are 2e-3 apart on its octahedron.
 void expectNearly(const Shape& got, const Shape& wanted) {
     const std::size_t count = wanted.rest.positionsOS.size();
@@ -69,7 +69,7 @@ void expectNearly(const Shape& got, const Shape& wanted) {
     EXPECT_EQ(turnedTriangles(got.rest.indices, vertices), turnedTriangles(wanted.rest.indices, inOrder(count)));
 }
 
-// ---- What streams hold ---------------------------------------------------------------------------------------------
+// ---- Contents of streams -------------------------------------------------------------------------------------------
 
 TEST(GltfDraco, aTriangleWrittenAfterTheSpecificationIsRead) {
     Builder builder;
@@ -147,9 +147,9 @@ TEST(GltfDraco, modelsOfTheAssetsFolderAreRead) {
     EXPECT_EQ(morphed.rig.shapes[1].rest.positionsOS.size(), 9u);
 }
 
-// ---- What is refused -----------------------------------------------------------------------------------------------
+// ---- Refused streams -----------------------------------------------------------------------------------------------
 
-/// At every byte, or at each fifth.
+/// Cuts streams at every byte; a reduced sweep at every fifth.
 void expectStreamsCutShortRefused() {
     const Grid grid;
     for (const Bytes& good : {grid.lossless(), grid.quantised(draco::MESH_EDGEBREAKER_ENCODING, 0)}) {
@@ -170,7 +170,7 @@ TEST(GltfDracoSlow, streamsCutShortAreRefusedByFileAndMesh) {
     expectStreamsCutShortRefused();
 }
 
-/// Every byte in three ways, or in one in turn.
+/// Changes every byte in three ways; a reduced sweep in one of them, by turns.
 void expectChangedBytesReadOrRefused() {
     const Grid grid;
     for (const Bytes& good :
@@ -185,7 +185,7 @@ void expectChangedBytesReadOrRefused() {
                 harmed[at] ^= std::byte(change);
                 SCOPED_TRACE(testing::Message() << "byte " << at << " changed by " << change);
                 setStream(builder, harmed);
-                refusedCount += builder.error().empty() ? 0 : 1; // throws what is not an InputError
+                refusedCount += builder.error().empty() ? 0 : 1; // exceptions other than InputError escape
             }
         EXPECT_GT(refusedCount, 0u);
     }
@@ -197,7 +197,7 @@ TEST(GltfDracoSlow, anyChangedByteIsReadOrRefused) {
     expectChangedBytesReadOrRefused();
 }
 
-/// Of the triangle by hand, with another byte in its header.
+/// Returns the error of dracoTriangle() with another byte in its header.
 std::string errorWithByte(std::size_t at, unsigned value) {
     Builder builder;
     Bytes stream = dracoTriangle();

@@ -1,4 +1,4 @@
-// What streams of Draco take while they are decoded, and what is kept of them.
+// Memory of Draco streams while they are decoded, and of the decoded meshes.
 #include "DracoGrid.h"
 #include "scenes/import/GltfBuffers.h"
 
@@ -19,7 +19,7 @@ TEST(GltfDraco, claimsOfAStreamAreRefusedBeforeMemoryIsReserved) {
     faces.indices<std::uint16_t>({0, 1, 2});
     addDraco(faces, dracoTriangle({.faces = kMany}));
     EXPECT_THAT(faces.error(), HasSubstr("holds 1073741824 triangles, but accessor 1 says 3 indices")) << faces.error();
-    // Nothing says how many triangles a primitive without indices has.
+    // No accessor limits the triangles of a primitive without indices.
     faces.primitive().erase("indices");
     EXPECT_THAT(refusal(faces), HasSubstr("/KHR_draco_mesh_compression: asks for 240.0 GiB")) << refusal(faces);
 
@@ -27,7 +27,7 @@ TEST(GltfDraco, claimsOfAStreamAreRefusedBeforeMemoryIsReserved) {
     Json& stream = addDraco(vertices, dracoTriangle({.faces = 20000, .vertices = 60000, .components = 255}));
     EXPECT_THAT(vertices.error(), HasSubstr("holds 60000 vertices, but accessor 0 of POSITION says 3"))
         << vertices.error();
-    // Nor what an attribute holds that nobody names.
+    // Nor does one limit an attribute that is not named.
     stream["attributes"] = Json::object();
     EXPECT_THAT(refusal(vertices), HasSubstr("/KHR_draco_mesh_compression: asks for ")) << refusal(vertices);
 }
@@ -41,12 +41,12 @@ TEST(GltfDraco, whatADecoderTookIsGivenBack) {
         primitive["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = builder.addView(stream);
         builder.json["meshes"][0]["primitives"].push_back(std::move(primitive));
     }
-    // Twenty decoders one after another, each of which has tables of 8 MiB.
+    // Twenty decoders in sequence, each with tables of 8 MiB.
     EXPECT_EQ(underLedger(importGltf, builder.folder.write("model.gltf", builder.json.dump()), 32 * kMiB).meshes.size(),
               21u);
 }
 
-/// A decoder needs its tables of 8 MiB, what is kept of the grid does not.
+/// A decoder needs tables of 8 MiB; the decoded grid does not.
 TEST(GltfDraco, aStreamOfSeveralPrimitivesIsDecodedOnce) {
     const Grid grid;
     Builder builder = compressed(grid, grid.quantised(draco::MESH_EDGEBREAKER_ENCODING, 5));

@@ -29,8 +29,8 @@ std::string pfm(int side, const std::function<glm::vec3(int, int)>& light) {
     return pfmOf(side, side, rgb);
 }
 
-/// The direction that is seen at a place of a face, from the upper left corner, 0..1: what a viewer in the middle of
-/// the room sees who looks along the axis, its head up, or towards -Z where it looks up and +Z where it looks down.
+/// Direction of a position on a face, 0..1 from the upper left corner, as viewed from the centre of the room. Up is +Y
+/// on the side faces, -Z on the face above and +Z on the face below.
 glm::dvec3 seenAt(int face, double x, double y) {
     const double right = 2.0 * x - 1.0, up = 1.0 - 2.0 * y;
     const glm::dvec3 directions[] = {{1.0, up, right},   {-1.0, up, -right}, {-right, 1.0, -up},
@@ -42,7 +42,7 @@ Json& lightOf(Builder& builder) {
     return builder.json["extensions"]["EXT_lights_image_based"]["lights"][0];
 }
 
-/// A light whose faces are pictures; its irradiance is that of nothing.
+/// Adds a light with these images as faces and without irradiance.
 void addLight(Builder& builder, int side, const std::array<std::string, 6>& faces) {
     Json& light = lightOf(builder);
     light = {{"name", "room"}, {"specularImageSize", side}, {"specularImages", Json::array({Json::array()})}};
@@ -101,8 +101,8 @@ TEST(GltfEnvironment, everyTexelOfACubeIsFoundInItsDirection) {
     EXPECT_EQ(scene.environment->map.name, "room");
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_TRUE(scene.images.empty()) << "faces are no textures";
-    // Bilinear, so that what is left is the curvature of a direction over a texel and the lookup across edges: a face
-    // that is mirrored, turned or exchanged errs by about 1.
+    // Bilinear lookup leaves the curvature of a direction over a texel and the lookup across edges. A mirrored, rotated
+    // or exchanged face errs by about 1.
     EXPECT_LT(worst(scene.environment->map, byDirection), 0.02);
 }
 
@@ -130,7 +130,7 @@ TEST(GltfEnvironment, aCubeKeepsTheLightOfABrightTexelAnywhere) {
 
 TEST(GltfEnvironment, itsRotationTurnsItAndItsIntensityIsTheScenes) {
     Builder builder = cubeOf(16, byDirection);
-    // A quarter turn about +X, of twice the unit length: what was seen above is seen in front, at +Z.
+    // A quarter turn about +X, as a quaternion of length 2: the part above moves to the front, +Z.
     lightOf(builder)["rotation"] = {2.0 * std::sqrt(0.5), 0.0, 0.0, 2.0 * std::sqrt(0.5)};
     lightOf(builder)["intensity"] = 2.5;
     const Scene scene = builder.import();
@@ -191,7 +191,7 @@ TEST(GltfEnvironment, aFaceThatCannotBeReadOrIsNotSquareIsACheckerboardUnlessLoa
 }
 
 TEST(GltfEnvironment, facesOfOtherSizesThanStatedAreStretchedToTheLargestWithAWarning) {
-    // Whatever the number: a short file must not ask for gigabytes.
+    // The stated size is ignored: a short file must not request gigabytes.
     Builder builder = cubeOf(16, byDirection);
     lightOf(builder)["specularImageSize"] = 2147483647;
     const Scene scene = builder.import();
@@ -208,8 +208,8 @@ TEST(GltfEnvironment, facesOfOtherSizesThanStatedAreStretchedToTheLargestWithAWa
     EXPECT_LT(worst(mixed.environment->map, byDirection), 0.05);
 }
 
-/// E = pi for even light of 1, and a share of it that follows the direction along an axis: 2/3 pi of that. In parts of
-/// the harmonics, whose factors Ramamoorthi and Hanrahan 2001 give.
+/// Irradiance coefficients of byDirection(): pi times uniform radiance, and 2/3 pi times radiance linear along an axis,
+/// over the factors of the harmonics (Ramamoorthi and Hanrahan 2001).
 std::vector<std::array<double, 3>> irradianceByDirection() {
     std::vector<std::array<double, 3>> irradiance(9);
     irradiance[0].fill(2.0 * pi / 0.282095);
@@ -283,7 +283,7 @@ TEST(GltfEnvironment, aModelLightsASceneThatNamesIt) {
     EXPECT_EQ(scene.environment.value().source, file.string());
     EXPECT_EQ(scene.environment->intensity, 3.0f);
     EXPECT_EQ(scene.environment->map.width, 16);
-    // Its own, without a wish: and no studio is supplied.
+    // Without a requested environment the model's is used, and no studio is supplied.
     EXPECT_EQ(loadScene(file.string(), {}).environment.value().source, file.string());
     // Scene files take the intensity too, unless they state one.
     const auto loaded = [&](const char* how) {

@@ -47,7 +47,7 @@ Json richDocument() {
     return builder.json;
 }
 
-/// The same of what moves and is deformed.
+/// Same, for animation and deformation.
 Json richRig() {
     Builder builder;
     builder.material();
@@ -86,7 +86,7 @@ Json richRig() {
     return builder.json;
 }
 
-/// The same of what is compressed by Draco.
+/// Same, for compression by Draco.
 Json richDraco() {
     Builder builder;
     builder.indices<std::uint16_t>({0, 1, 2});
@@ -98,7 +98,7 @@ std::vector<Json> richDocuments() {
     return {richDocument(), richRig(), richDraco()};
 }
 
-/// Imported and posed, or refused as input: anything else escapes and fails the test.
+/// Imports and poses a file, or refuses it as input: any other exception fails the test.
 bool isImported(const std::filesystem::path& file) {
     try {
         Scene scene = underLedger(importGltf, file);
@@ -118,12 +118,12 @@ TEST(GltfFuzz, unharmedDocumentIsImported) {
         EXPECT_TRUE(isImported(folder.write("model.gltf", document.dump()))) << document.dump();
 }
 
-/// Every value by each of these, or by each fourth in turn.
+/// Replaces every value by each of these; a reduced sweep takes every fourth, by turns.
 void expectReplacedOnesImportedOrRefused() {
     const Folder folder;
     const std::string evil = "-1 0 1 2 7 255 65536 2147483647 4294967295 9007199254740991 0.5 -0.0 {} [] [0] null true "
                              "\"\" \"x\" 1e308 1e38 5121 5126 18446744073709551615 -9223372036854775808";
-    std::vector<std::string> values; // of an odd number
+    std::vector<std::string> values; // an odd number, so that steps of 4 reach all
     std::istringstream words(evil);
     for (std::string value; words >> value;) values.push_back(value);
     std::size_t importedCount = 0, triedCount = 0, turn = 0;

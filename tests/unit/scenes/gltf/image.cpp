@@ -14,7 +14,7 @@ using scenes::test::storedTexels;
 
 const std::string kRgb = pngOf(1, 1, 8, 2, "\x01\x02\x03");
 
-/// What every refused picture may be converted to.
+/// The advice that ends every refusal.
 const std::string kConvert = "; convert the picture to png, jpeg, openexr, hdr, pfm, tiff, webp, bmp, gif or tga";
 
 using Texels8 = std::vector<std::uint8_t>;
@@ -128,13 +128,13 @@ TEST(Image, paletteIndicesBeyondThePaletteAreNotReadPastIt) {
     EXPECT_EQ(decodeError(bytesOf(tga), "a.tga"),
               "a.tga: the tga picture is broken or cut short (unknown image type); save it again");
     const Texels8 texel = storedTexels<std::uint8_t>(decoded(bytesOf(bmp), "a.bmp"));
-    ASSERT_EQ(texel.size(), 4u); // of a colour that stb_image does not set
+    ASSERT_EQ(texel.size(), 4u); // a colour that stb_image leaves unset
     EXPECT_EQ(texel[3], 255);
 }
 
 TEST(Image, readersOfOtherFormatsAreNotAsked) {
     const Folder folder;
-    // "null" makes pictures of nothing, "mp4" opens films, and those of IFF and DPX crash on what is broken.
+    // "null" makes images from nothing, "mp4" opens films, and the readers of IFF and DPX crash on broken files.
     for (const char* extension : {"null", "mp4", "raw", "vdb", "iff", "dpx", "cin", "psd", "jp2", "ptx", "txt"}) {
         const std::string name = std::string("a.") + extension;
         const std::string error = decodeError(bytesOf(std::vector<char>{'F', 'O', 'R', '4', 0, 0}), name);

@@ -162,7 +162,7 @@ TEST(GltfLights, whatAClipMakesOfTheIntensityOfOneInLumensIsInWattsToo) {
     const int times = builder.add("SCALAR", {0, 1}), values = builder.add("SCALAR", {683, 1366});
     Json& animation = builder.json["animations"][0];
     animation["samplers"][0] = {{"input", times}, {"output", values}};
-    for (const char* property : {"intensity", "range"}) // of one sampler, and only one of them counts lumens
+    for (const char* property : {"intensity", "range"}) // both use one sampler, and only one is in lumens
         animation["channels"].push_back(
             {{"sampler", 0},
              {"target", pointerTo(std::string("/extensions/KHR_lights_punctual/lights/0/") + property)}});
@@ -176,7 +176,7 @@ TEST(GltfLights, whatAClipMakesOfTheIntensityOfOneInLumensIsInWattsToo) {
 }
 
 TEST(GltfLights, ofChannelsThatChangeTheSameThingTheLastCountsAndOnlyItIsCharged) {
-    // A light that many nodes carry, and as many channels that change it.
+    // A light on many nodes, and as many channels that animate it.
     constexpr int kNodes = 2000, kChannels = 20000;
     Builder builder = withLight(R"({"type": "point", "intensity": 3})");
     const Json carrier = {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
@@ -193,7 +193,7 @@ TEST(GltfLights, ofChannelsThatChangeTheSameThingTheLastCountsAndOnlyItIsCharged
     Json channel = {{"sampler", 0}, {"target", pointerTo("/extensions/KHR_lights_punctual/lights/0/intensity")}};
     Json channels = Json::array();
     for (int i = 0; i < kChannels; ++i) channels.push_back(channel);
-    // The same place, written another way.
+    // The same property, by another spelling of the pointer.
     channel["sampler"] = 1;
     channel["target"] = pointerTo("/extensions/KHR_lights_punctual/lights/00/intensity");
     channels.push_back(channel);

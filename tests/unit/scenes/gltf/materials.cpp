@@ -1,4 +1,4 @@
-// Materials of glTF files and their extensions, but for textures and variants.
+// Materials of glTF files and their extensions, without textures and variants.
 
 #include "tests/unit/scenes/Members.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
@@ -58,7 +58,7 @@ TEST(GltfMaterials, factorsOfExtensionsAreImportedExactly) {
     }
 }
 
-/// A pane 0.5 thick in its mesh's space, and what is imported of it.
+/// Imports a pane that is 0.5 thick in mesh space.
 Scene paneOf(const char* nodes, const char* roots = "[0]") {
     Builder builder;
     builder.material().merge_patch(Json::parse(R"({"extensions": {
@@ -80,12 +80,12 @@ TEST(GltfMaterials, aThicknessIsScaledAsTheNodesThatShowIt) {
     expectThickness(paneOf(R"([{"mesh": 0}])"), 0.5f);
     expectThickness(paneOf(R"([{"mesh": 0, "scale": [3, 3, 3]}])"), 1.5f);
     expectThickness(paneOf(R"([{"mesh": 0, "scale": [-2, 2, 2]}])"), 1.0f);
-    // Turned, below a parent, and twice alike.
+    // Rotated, below a parent, and two with the same scale.
     expectThickness(paneOf(R"([{"children": [1, 2], "scale": [0.5, 0.5, 0.5]},
                                {"mesh": 0, "scale": [4, 4, 4], "rotation": [0.6, 0, 0, 0.8]},
                                {"mesh": 0, "scale": [4, 4, 4], "translation": [1, 2, 3]}])"),
                     1.0f);
-    // Nothing is seen of the second, and the third is no part of the scene.
+    // The second is scaled to nothing and the third is not in the scene; neither counts.
     expectThickness(
         paneOf(R"([{"mesh": 0, "scale": [3, 3, 3]}, {"mesh": 0, "scale": [0, 0, 0]}, {"mesh": 0}])", "[0, 1]"), 1.5f);
 }
@@ -95,7 +95,7 @@ TEST(GltfMaterials, aThicknessWithoutOneScaleStaysAsItIsWithAWarning) {
          {R"([{"mesh": 0, "scale": [1, 1, 2]}])",
           R"([{"mesh": 0, "matrix": [1,0,0,0, 0.6,0.8,0,0, 0,0,1,0, 0,0,0,1]}])", // sheared
           R"([{"mesh": 0, "scale": [3, 3, 3], "children": [1]}, {"mesh": 0, "scale": [1, 1, 2]}])",
-          // The square of it is infinite.
+          // The square of its scale is infinite.
           R"([{"scale": [1e38, 1e38, 1e38], "children": [1]}, {"scale": [1e38, 1e38, 1e38], "children": [2]},
               {"scale": [1e38, 1e38, 1e38], "children": [3]}, {"scale": [1e38, 1e38, 1e38], "children": [4]},
               {"mesh": 0, "scale": [1e38, 1e38, 1e38]}])"}) {
@@ -238,7 +238,7 @@ TEST(GltfSpecularGlossiness, becomesADielectricThatReflectsItsSpecular) {
     const Material& material = scene.materials.at(0);
     EXPECT_EQ(material.model, MaterialModel::MetallicRoughness);
     expectMembers(material, "baseColor 0.1 0.2 0.3 0.4, metallic 0, perceptualRoughness 0.25");
-    expectMembers(material, "specularColor 0.5 0.6 0.7, ior 0"); // F0 with an index of 0
+    expectMembers(material, "specularColor 0.5 0.6 0.7, ior 0"); // an index of 0 makes F0 the specular colour
     EXPECT_TRUE(scene.images.empty()) << "what stands in for programs without the extension is not read";
     ASSERT_EQ(scene.notes.size(), 1u);
     EXPECT_THAT(scene.notes[0], HasSubstr("(KHR_materials_pbrSpecularGlossiness) are converted"));

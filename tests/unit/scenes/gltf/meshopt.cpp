@@ -61,7 +61,7 @@ TEST(GltfMeshopt, trianglesAndIndicesAreDecodedExactly) {
         builder.addAccessor(addCompressed(builder, bytesOf(triangles), 6, 2, "TRIANGLES"), 5123, "SCALAR", 6);
     const std::vector<std::uint32_t> decoded = builder.import().meshes.at(0).indices;
     ASSERT_EQ(decoded.size(), 6u);
-    // The codec may turn a triangle's corners round, so compare each one's smallest corner first.
+    // The codec may rotate a triangle's corners, so the smallest index of each is moved to the front.
     for (std::size_t t = 0; t < 6; t += 3) {
         std::vector<std::uint32_t> triangle(decoded.begin() + std::ptrdiff_t(t),
                                             decoded.begin() + std::ptrdiff_t(t + 3));

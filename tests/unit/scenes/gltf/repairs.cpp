@@ -2,14 +2,14 @@
 
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 
-/// What is drawn of files with flaws. What is said of them and refused strictly is tested with each kind of content.
+/// Scenes imported from flawed files. Tests of each kind of content cover their warnings and strict refusals.
 namespace tessera::scenes::gltf::test {
 namespace {
 
 struct Repaired {
     const char* pointer;
     const char* value;
-    const char* warning; ///< part of the only one; null: none
+    const char* warning; ///< part of the only warning; null for none
     std::function<bool(const Scene&)> isRight;
 };
 
@@ -84,7 +84,7 @@ TEST(GltfRepairs, anAttributeThatCannotBeReadIsLeftOutAlone) {
     EXPECT_THAT(mesh.colors, IsEmpty());
 }
 
-/// Two triangles, one of which names a vertex that there is not, or one without a place.
+/// Two triangles, one of which refers to a missing vertex or to one without a finite position.
 TEST(GltfRepairs, trianglesWithLostCornersAreLeftOut) {
     for (const std::uint16_t lost : {std::uint16_t{4}, std::uint16_t{3}, std::uint16_t{0xffff}}) {
         Builder builder;
@@ -149,7 +149,7 @@ TEST(GltfRepairs, everyNodeIsDrawnOnce) {
     EXPECT_TRUE(hasWarning(scene, "has several parents, or is a root as well; the first place counts"));
 }
 
-/// Elements are left out of extensions' arrays, too, and indices mean those of the file.
+/// Flawed elements are dropped from extensions' arrays too, and indices remain those of the file.
 TEST(GltfRepairs, aFlawedVariantMovesNoOther) {
     Builder builder;
     builder.json["materials"] = Json::parse(R"([{"name": "a"}, {"name": "b"}])");
@@ -204,8 +204,7 @@ TEST(GltfRepairs, whatJsonDoesNotHaveIsNull) {
     EXPECT_THAT(Builder::errorOf(builder.folder.write("model.gltf", text)), HasSubstr("is not JSON"));
 }
 
-// ---- KHR_node_visibility
-// ---------------------------------------------------------------------------------------------
+// ---- KHR_node_visibility -------------------------------------------------------------------------------------------
 
 TEST(GltfVisibility, whatIsHiddenHidesMeshesAndLightsBelowButNoCamera) {
     Builder builder;

@@ -8,7 +8,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-/// What the scene's contract promises of meshes, wherever they come from.
+/// Expects the invariants of a scene's meshes.
 void expectSound(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         const std::size_t count = mesh.positionsOS.size();
@@ -26,7 +26,7 @@ void expectSound(const Scene& scene) {
         for (const TextureUse& use : material.textures) EXPECT_LT(use.image, imageCount);
 }
 
-/// Every model imports, or is refused with a reason; the refusals and the empty ones are printed to be judged by eye.
+/// Expects each model to import or to be refused with a reason. Prints refusals and empty models for review.
 void sweep(const std::filesystem::path& folder) {
     std::size_t importedCount = 0;
     const std::vector<std::filesystem::path> models = tessera::test::modelsBelow(folder);

@@ -1,4 +1,4 @@
-// Textures of glTF files: samplers, transforms, and where their pictures come from.
+// Textures of glTF files: samplers, transforms, and the sources of their images.
 
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 

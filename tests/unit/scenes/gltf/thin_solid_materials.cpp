@@ -1,4 +1,4 @@
-// What points and lines are painted with.
+// Materials of points and lines.
 
 #include "tests/unit/scenes/gltf/AnimationBuilder.h"
 #include "tests/unit/scenes/gltf/ThinSolids.h"
@@ -6,7 +6,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-/// Beside the points or lines, of the same material.
+/// Adds a triangle of the same material beside the points or lines.
 void addTriangle(Builder& builder) {
     builder.json["meshes"][0]["primitives"].push_back(Json::parse(R"({"attributes": {"POSITION": 0}, "material": 0})"));
 }
@@ -63,7 +63,7 @@ TEST(GltfThinSolidMaterials, withNormalsTheyAreLitByThoseOfTheirFacesWithoutNorm
     const Scene plain = builder.import();
     EXPECT_EQ(materialOf(plain).model, MaterialModel::MetallicRoughness);
     EXPECT_EQ(materialOf(plain).name, "paint");
-    EXPECT_GT(volumeOf(plain.meshes.at(0), 0), 0.0); // whose normals are those of faces
+    EXPECT_GT(volumeOf(plain.meshes.at(0), 0), 0.0); // with the normals of faces
     builder.json["materials"][0]["normalTexture"] = {{"index", 0}};
     builder.json["materials"][0]["emissiveTexture"] = {{"index", 0}};
     builder.addTexture();

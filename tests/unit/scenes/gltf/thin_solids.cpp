@@ -10,7 +10,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-/// Of lengths of about 1: far above the rounding of positions, 6e-8, and far below a line's width, 2.5e-3.
+/// Tolerance of lengths about 1: far above the rounding of positions, 6e-8, and far below a line's width, 2.5e-3.
 constexpr double kRoundedLength = 1e-6;
 
 std::size_t solidsOf(const Mesh& mesh) {
@@ -18,7 +18,7 @@ std::size_t solidsOf(const Mesh& mesh) {
     return mesh.indices.size() / kCornersOfSolid;
 }
 
-/// The middle of the solid of a point, or of an end of a prism's axis.
+/// The centre of a point's solid, or of one end of a prism's axis.
 glm::dvec3 middleOS(const Mesh& mesh, std::size_t first, std::size_t corners) {
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < corners; ++i) sum += cornerOS(mesh, first + i);
@@ -29,7 +29,7 @@ struct Segment {
     glm::dvec3 start, end;
 };
 
-/// A prism's first triangle is that around its start, its last that around its end.
+/// The axes of the prisms. A prism's first triangle surrounds its start, its last triangle its end.
 std::vector<Segment> segmentsOf(const Mesh& mesh) {
     std::vector<Segment> segments;
     for (std::size_t i = 0; i < solidsOf(mesh); ++i)
@@ -37,7 +37,7 @@ std::vector<Segment> segmentsOf(const Mesh& mesh) {
     return segments;
 }
 
-/// Numbers of the five places, in pairs.
+/// Expects segments between the five positions, given as pairs of their numbers.
 void expectSegments(const Mesh& mesh, const std::vector<std::pair<std::size_t, std::size_t>>& expected) {
     const auto place = [](std::size_t i) {
         return glm::dvec3(kFivePlaces.at(3 * i), kFivePlaces.at(3 * i + 1), kFivePlaces.at(3 * i + 2));
@@ -67,7 +67,7 @@ TEST(GltfThinSolids, aPointBecomesAnOctahedronOfAStatedShareOfTheModel) {
         }
         EXPECT_LT(glm::distance(least, point - halfWidth), 2.0 * kRoundedLength);
         EXPECT_LT(glm::distance(most, point + halfWidth), 2.0 * kRoundedLength);
-        // The area of the surface times the rounding of places.
+        // The surface area times the rounding of positions.
         EXPECT_NEAR(volumeOf(mesh, i), 4.0 / 3.0 * std::pow(halfWidth, 3),
                     7.0 * halfWidth * halfWidth * kRoundedLength);
     }
@@ -109,7 +109,7 @@ TEST(GltfThinSolids, aLoopOfTwoVerticesIsOneSegment) {
     expectSegments(builder.import().meshes.at(0), {{1, 4}});
 }
 
-/// A triangle of the world's size 1 beside a line at a node of scale 0.1.
+/// A triangle of world size 1 beside a line at a node of scale 0.1.
 TEST(GltfThinSolids, widthsAreOfTheWholeModelInTheWorld) {
     Builder builder;
     const int line = builder.add("VEC3", {0, 0, 0, 1, 0, 0});
@@ -199,7 +199,7 @@ TEST(GltfThinSolids, segmentsThatGrowAreThereFromTheBegin) {
     EXPECT_EQ(solidsOf(builder.import().meshes.at(0)), 1u);
 }
 
-/// Whose joint is 10 times as large, and lies at x = 7.
+/// The joint has a scale of 10 and is at x = 7.
 TEST(GltfThinSolids, jointsGoWithTheVerticesAndTheFirstOneGivesTheScale) {
     Builder builder = thin(1, {0, 0, 0, 1, 0, 0});
     builder.merge(R"({"nodes": [{"mesh": 0, "skin": 0}, {"translation": [7, 0, 0], "scale": [10, 10, 10]}],
@@ -211,7 +211,7 @@ TEST(GltfThinSolids, jointsGoWithTheVerticesAndTheFirstOneGivesTheScale) {
     checkScene(scene);
     poseScene(scene, 0.0);
     const Mesh& mesh = scene.meshes.at(0);
-    // A pose stores vertices around their middle.
+    // A pose stores vertices relative to their centre.
     const glm::dvec3 along = segmentsOf(mesh).at(0).end - segmentsOf(mesh).at(0).start;
     EXPECT_LT(glm::distance(along, glm::dvec3(10, 0, 0)), 10.0 * kRoundedLength);
     EXPECT_NEAR(glm::distance(cornerOS(mesh, 0), cornerOS(mesh, 1)), 10.0 * kLineWidthShare, 10.0 * kRoundedLength);
@@ -240,7 +240,7 @@ TEST(GltfThinSolids, aLineOfOneVertexDrawsNothing) {
     }
 }
 
-/// Rounding moves the corners of what lies so far away by 1/16 m.
+/// At such distances rounding moves corners, by 1/16 m at 1e6 m.
 TEST(GltfThinSolids, aSinglePointIsDrawnWhereverItLies) {
     for (const float x : {0.0f, 1.0f, 1e6f, 3e38f}) {
         const Mesh mesh = thin(0, {x, 0, 0}).import().meshes.at(0);

@@ -5,7 +5,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-/// Two triangles: one that is paint, in 'red' ruby and in 'blue' sky, and one that always is paint.
+/// Two triangles of the material paint; the first one has ruby in the variant 'red' and sky in 'blue'.
 Builder withVariants() {
     Builder builder;
     builder.merge(R"({"extensionsUsed": ["KHR_materials_variants"],
@@ -40,7 +40,7 @@ TEST(GltfVariants, aVariantBindsItsMaterialsAndKeepsTheNumbersOfOthers) {
     EXPECT_EQ(worn(blue), (Names{"sky", "paint"}));
     EXPECT_EQ(blue.materials.at(0).name, "paint");
     EXPECT_EQ(blue.notes, (Names{"shows the variant 'blue'; its variants are red, blue"}));
-    builder.wishes.variant = "green"; // of another model of the scene
+    builder.wishes.variant = "green"; // a variant of another model in the scene
     EXPECT_EQ(worn(builder.import()), (Names{"paint", "paint"}));
 }
 

@@ -8,7 +8,7 @@
 
 #include "tests/unit/scenes/json/SceneFiles.h"
 
-/// Scenes of one material, whose members a test gives.
+/// Scenes of one material with given members.
 namespace tessera::scenes::test {
 
 /// Members of a scene whose bust has the material.
@@ -21,7 +21,7 @@ class SceneJsonMaterials : public OneElement {
 protected:
     SceneJsonMaterials() : OneElement("materials") {}
 
-    /// The scene of a bust with one material, which its own default one gave way to.
+    /// The scene of a bust with this material in place of its default one.
     Scene sceneOf(const std::string& material) const {
         Scene scene = folder.importMembers(bound(material));
         EXPECT_EQ(scene.materials.size(), 1u);

@@ -9,10 +9,10 @@
 
 namespace tessera::scenes::test {
 
-/// True when the shipped JSON Schema accepts the document.
+/// Returns whether the shipped JSON Schema accepts the document.
 bool schemaAccepts(std::string_view document);
 
-/// A glTF model of a triangle that is paint, in the variant 'red' ruby.
+/// A glTF model of a triangle of the material paint, or ruby in the variant 'red'.
 inline constexpr const char* kCar = R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
     "extensions": {"KHR_materials_variants": {"variants": [{"name": "red"}]}},
     "materials": [{"name": "paint"}, {"name": "ruby"}],
@@ -21,7 +21,7 @@ inline constexpr const char* kCar = R"({"asset": {"version": "2.0"}, "nodes": [{
     "accessors": [{"componentType": 5126, "type": "VEC3", "count": 3}]})";
 
 /// A folder with the files that the tests' scenes refer to: models/bust.obj (node "bust", material "default"),
-/// parts/lamps.json (a light, a camera, a node "lamp"), hooks/redden.glsl, which changes nothing, and pictures of one
+/// parts/lamps.json (a light, a camera, a node "lamp"), hooks/redden.glsl, which changes nothing, and images of one
 /// texel: albedo 10 20 30, specular 40 50 60, normal 128 128 255.
 class SceneFolder : public TempFolder {
 public:
@@ -29,13 +29,13 @@ public:
 
     /// Imports scene.json with the given text, which must pass the importer, checkScene() and the schema.
     Scene import(std::string_view text) const;
-    /// The same of {"tessera": 1, include bust.obj, MEMBERS}.
+    /// Same, for {"tessera": 1, include bust.obj, MEMBERS}.
     Scene importMembers(const std::string& members) const;
 
     /// The error of importing the text, after "...scene.json:"; the schema must refuse it too.
     std::string errorOf(std::string_view text) const;
     std::string errorOfMembers(const std::string& members) const;
-    /// The same for faults that a schema cannot find: the schema must accept them.
+    /// Same, for faults that a schema cannot detect: the schema must accept them.
     std::string errorBeyondSchemaOf(std::string_view text) const;
     std::string errorBeyondSchemaOfMembers(const std::string& members) const;
 
@@ -43,7 +43,7 @@ private:
     std::string importError(std::string_view text) const;
 };
 
-/// But for the rounding of sine and cosine.
+/// Expects equality up to the rounding of sine and cosine.
 inline void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
     EXPECT_LT(glm::distance(a, b), 1e-12) << a.x << ' ' << a.y << ' ' << a.z;
 }
@@ -54,7 +54,7 @@ protected:
     const SceneFolder folder;
 };
 
-/// Tests of one element of a list of scene files, such as "lights". Errors are those after the element's place.
+/// Tests of an element in a list of scene files, such as "lights". Errors start after the element's path.
 class OneElement : public SceneFiles {
 protected:
     explicit OneElement(std::string list) : list_(std::move(list)) {}
@@ -66,7 +66,7 @@ protected:
     std::string errorBeyondSchemaOf(const std::string& element) const {
         return inElement(folder.errorBeyondSchemaOf(document(element)));
     }
-    /// Also for errors of documents with more than the element.
+    /// Removes the element's path from an error, also of larger documents.
     std::string inElement(const std::string& error) const {
         const std::string place = "/" + list_ + "/0";
         EXPECT_THAT(error, testing::StartsWith(place));
@@ -77,7 +77,7 @@ private:
     std::string list_;
 };
 
-/// The results of `element` for 0, 1, 2 ... below `count`, with commas between.
+/// Joins the results of `element` for 0 to `count` - 1 with commas.
 template <typename Element>
 std::string listOf(int count, Element element) {
     std::string list;

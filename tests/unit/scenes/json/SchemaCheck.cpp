@@ -1,6 +1,6 @@
 #if defined(__GNUC__) && !defined(__clang__)
-// GCC 12 sees an overlapping copy in valijson's use of std::string::replace that cannot happen (GCC bug 105651), and
-// reports it where the code is inlined, so the whole file must be told.
+// GCC 12 wrongly warns of an overlapping copy in valijson's use of std::string::replace (GCC bug 105651). It warns
+// where the code is inlined, so the warning is off for the whole file.
 #pragma GCC diagnostic ignored "-Wrestrict"
 #endif
 #include <memory>

@@ -28,7 +28,7 @@ TEST_F(SceneJsonAreaLights, everyShapeHasItsStatedValues) {
         "along": [0, 7, -2], "twoSided": true, "seen": false, "intensity": 40, "falloff": {"type": "inverse_square", "range": 9})");
     EXPECT_EQ(panel.type, LightType::Rectangle);
     expectMembers(panel, "widthMetres 3, heightMetres 0.5, directionWS 0 -1 0, isTwoSided 1, isSeen 0, rangeMetres 9");
-    expectMembers(panel, "alongWS 0 0 -1"); // what is along the direction does not count
+    expectMembers(panel, "alongWS 0 0 -1"); // the part along the direction is ignored
     expectMembers(areaLight(R"("type": "disk", "target": [1, 2, 4], "radius": 0.25)"),
                   "radiusMetres 0.25, directionWS 0 0 1, isTwoSided 0, isSeen 1, rangeMetres inf");
     expectMembers(areaLight(R"("type": "sphere", "radius": 2)"), "radiusMetres 2");

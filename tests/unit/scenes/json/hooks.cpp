@@ -19,7 +19,7 @@ protected:
                   "hook": {"file": "hooks/tint.glsl")" +
                more + "}";
     }
-    /// Errors of these members of the hook.
+    /// Returns the error of a hook with these members.
     std::string errorWith(const std::string& more) const { return folder.errorBeyondSchemaOfMembers(members(more)); }
 };
 

@@ -90,7 +90,7 @@ TEST_F(SceneJsonInclude, animationsMoveAlong) {
         {"type": "directional", "direction": [0, 0, 1],
          "keyframes": {"direction": {"times": [0, 2], "values": [[0, 0, 1], [1, 0, 0]]}}}]})");
     const Scene alone = folder.import(including(R"({"file": "parts/moving.json"})"));
-    // Mirrored, turned and moved: at every time, the moved light is the light, moved.
+    // Mirrored, turned and moved: at every time, the included light is the original light, transformed.
     const Scene moved = folder.import(
         including(R"({"file": "parts/moving.json", "matrix": [0, 1, 0, 0,  1, 0, 0, 0,  0, 0, 1, 0,  5, 6, 7, 1]})"));
     const glm::dvec3 turnedWS = lightAtTime(alone.lights.at(3), 0.3).directionWS;

@@ -136,7 +136,7 @@ TEST_F(SceneJsonLights, everyAnimationMovesTheLight) {
     expectNear(
         positionAt(R"({"type": "path", "points": [[0, 0, 0], [2, 0, 0]], "open": true, "periodSeconds": 4})", 2.0),
         {2, 0, 0});
-    // The middle of a square's side is an eighth of it farther out on the curve.
+    // The curve bulges by an eighth of a square's side at the middle of the side.
     expectNear(positionAt(R"({"type": "path", "points": [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]],
                               "line": "catmull_rom", "periodSeconds": 8})",
                           1.0),

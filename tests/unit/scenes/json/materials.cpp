@@ -42,7 +42,7 @@ TEST_F(SceneJsonMaterials, everyModelHasItsParameters) {
     }
 }
 
-/// Numbers and textures, whose pictures are told by their red: that of albedo is 10, of specular 40, of normal 128.
+/// Parameters and textures. The red value identifies a texture's image: 10 is albedo, 40 specular, 128 normal.
 TEST_F(SceneJsonMaterials, everyModelHasTexturesOfItsParameters) {
     using enum TextureSlot;
     using Reds = std::vector<std::pair<TextureSlot, int>>;

@@ -8,7 +8,7 @@
 #include "tests/support/UnderLedger.h"
 #include "tests/unit/scenes/TempFolder.h"
 
-/// Small OBJ and MTL files, and what becomes of them.
+/// Small OBJ and MTL files and their import.
 namespace tessera::scenes::test {
 
 constexpr std::string_view kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -22,18 +22,18 @@ protected:
         checkScene(scene);
         return scene;
     }
-    /// The scene of one triangle whose material "paint" is the given MTL text.
+    /// A scene of one triangle whose material "paint" has the given MTL statements.
     Scene painted(const std::string& mtl, const ImportWishes& wishes = {}) const {
         folder.write("paint.mtl", "newmtl paint\n" + mtl);
         return importText("mtllib paint.mtl\n" + std::string(kThreeVertices) + "usemtl paint\nf 1 2 3\n", wishes);
     }
     Material paint(const std::string& mtl) const { return painted(mtl).materials.at(0); }
 
-    /// The error of a strict load of the last text.
+    /// Returns the error of a strict load of the last text.
     std::string strictError() const {
         return inputErrorOf([&] { underLedger(importObj, folder.path() / "model.obj", {}, strictly()); });
     }
-    /// The scene's only warning, without the folder; a strict load refuses it with the part before the last ';'.
+    /// Returns the scene's only warning without the folder. A strict load fails with its part before the last ';'.
     std::string onlyWarning(const Scene& scene) const {
         EXPECT_EQ(scene.warnings.size(), 1u) << testing::PrintToString(scene.warnings);
         if (scene.warnings.empty()) return {};

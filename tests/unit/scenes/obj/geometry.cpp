@@ -33,8 +33,8 @@ TEST_F(Obj, polygonsKeepTheirAreaWhenCut) {
 }
 
 TEST_F(Obj, concavePolygonsNeverCoverTheirNotch) {
-    // Arrow heads with a notch at (1, 1): of five corners and, the right angle left out, of four; each begun at each
-    // corner and seen from both sides, in each coordinate plane.
+    // Arrow heads with a notch at (1, 1), of five corners and of four. Each starts at each corner and is used from both
+    // sides, in each coordinate plane.
     const std::vector<std::vector<glm::ivec2>> outlines = {{{0, 0}, {1, 1}, {2, 0}, {2, 3}, {0, 3}},
                                                            {{0, 0}, {1, 1}, {2, 0}, {1, 3}}};
     for (const std::vector<glm::ivec2>& outline : outlines) {
@@ -153,8 +153,8 @@ TEST_F(Obj, normalsNeverSmoothAcrossDifferentGroups) {
 }
 
 TEST_F(Obj, smoothNormalsNeverDependOnHowAPolygonIsCut) {
-    // A cube's corner, whose three faces are one quad and two quads cut into triangles along either diagonal. By angle
-    // each face counts the same, by triangle not.
+    // A cube's corner. Its faces are one quad, and two quads cut into triangles along different diagonals. Weights by
+    // angle count each face the same; weights by triangle do not.
     const Mesh mesh = importText("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\nv 1 0 1\ns 1\n"
                                  "f 1 4 3 2\nf 1 5 6\nf 1 6 4\nf 1 2 5\nf 2 7 5\n")
                           .meshes[0];

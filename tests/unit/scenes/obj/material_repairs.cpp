@@ -1,4 +1,4 @@
-// MTL files with a flaw: the rest is drawn, one line names place and value, and a strict load refuses them.
+// Flawed MTL files: the rest is imported, one warning names place and value, and a strict load fails.
 #include <cmath>
 
 #include "tests/unit/scenes/obj/ObjFiles.h"
@@ -70,7 +70,7 @@ TEST_F(MtlRepairs, optionsMayStandBehindTheName) {
     EXPECT_EQ(use.sampler.wrapU, Wrap::ClampToEdge);
     EXPECT_THAT(both.warnings, IsEmpty());
     EXPECT_EQ(both.images.at(0).width, 1);
-    // A name with a space is one all the same.
+    // A name with a space is one name.
     EXPECT_THAT(painted("map_Kd my picture.tga -bm 1\n").warnings, ElementsAre(HasSubstr("/my picture.tga: there is")));
     EXPECT_EQ(warningOf("map_Kd -s n.tga\n"), "paint.mtl:2: the option '-s' needs a number; the option is left out");
     EXPECT_THAT(painted("map_Kd -z 1 n.tga\n").warnings, ElementsAre(HasSubstr("are left out: the option -z")));

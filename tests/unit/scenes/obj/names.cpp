@@ -1,4 +1,4 @@
-// Names of libraries and pictures in other spellings than their files.
+// Names of libraries and images whose spelling differs from their files.
 #include "scenes/import/Files.h"
 #include "tests/unit/scenes/obj/ObjFiles.h"
 
@@ -7,7 +7,7 @@ namespace {
 
 using namespace test;
 
-/// In the forms NFC, NFD and Latin-1.
+/// A name in the forms NFC, NFD and Latin-1.
 const std::string kComposed = "Gr\xc3\xbcn.tga", kDecomposed = "Gru\xcc\x88n.tga", kLatin = "Gr\xfcn.tga";
 
 TEST(NamedFile, namesThatDifferInCaseOrUnicodeFormAreTheSame) {
@@ -32,7 +32,7 @@ TEST(NamedFile, namesThatDifferInCaseOrUnicodeFormAreTheSame) {
 
 class ObjNames : public ObjFiles {
 protected:
-    /// The picture's name as a statement has it is found, and reported where the spelling differs.
+    /// Expects a statement's image to be found, and a warning where the spelling differs.
     void expectPicture(const std::string& name, bool isAsNamed) {
         const Scene scene = painted("map_Kd " + name + "\n");
         ASSERT_EQ(scene.images.size(), 1u) << name;

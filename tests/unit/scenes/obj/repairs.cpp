@@ -1,4 +1,4 @@
-// OBJ files with a flaw: the rest is drawn, one line names place and value, and a strict load refuses them.
+// Flawed OBJ files: the rest is imported, one warning names place and value, and a strict load fails.
 #include <cmath>
 #include <numbers>
 
@@ -62,7 +62,7 @@ TEST_F(ObjRepairs, textureCoordinatesThatAreNoNumbersAreZero) {
     EXPECT_EQ(both.meshes.at(0).texCoords[0].at(0), glm::vec2(0, 1));
     EXPECT_EQ(importText(std::string(kThreeVertices) + "vt 0.5 inf" + end).meshes.at(0).texCoords[0].at(0),
               glm::vec2(0.5f, 1));
-    // What no coordinate needs is not read.
+    // Components that no coordinate needs are not read.
     EXPECT_THAT(importText(std::string(kThreeVertices) + "vt 0.5 0.5 nan" + end).warnings, IsEmpty());
 }
 
@@ -139,7 +139,7 @@ TEST_F(ObjRepairs, aFileOfWhichNothingIsLeftIsRefusedWithItsFirstFlaw) {
               "model.obj: has nothing to draw ('f', 'l', 'p' or 'v' statements); export the model with its polygons");
 }
 
-/// A disc, and a star whose every other corner is at a quarter of its radius.
+/// A face whose every other corner is at the radius `inner`: a disc for 1, else a star.
 std::string polygon(int corners, double inner) {
     std::string text, face = "f";
     for (int i = 0; i < corners; ++i) {

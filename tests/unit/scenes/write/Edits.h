@@ -5,7 +5,7 @@
 #include "scenes/Scene.h"
 #include "tests/support/Random.h"
 
-/// Elements whose every member has a value of its own, the unused ones too.
+/// Random elements with a different value in every member, including unused ones.
 namespace tessera::scenes::test {
 
 class Edits {
@@ -82,7 +82,7 @@ public:
         return light;
     }
 
-    /// Every slot has one of `images` pictures.
+    /// Every texture slot has one of `images` images.
     Material material(MaterialModel model, int images) {
         Material material;
         material.name = "edited";

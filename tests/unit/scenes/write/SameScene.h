@@ -7,7 +7,7 @@
 
 namespace tessera::scenes {
 
-/// Two scenes are the same field by field, to the last bit; warnings are not compared.
+/// Expects two scenes to be equal field by field, to the last bit; warnings are not compared.
 inline void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_EQ(a.name, b.name);
     EXPECT_EQ(a.background, b.background);
@@ -17,7 +17,7 @@ inline void expectSameScene(const Scene& a, const Scene& b) {
     EXPECT_TRUE(a.options == b.options);
     ASSERT_EQ(a.images.size(), b.images.size());
     for (std::size_t i = 0; i < a.images.size(); ++i) {
-        // A picture is called by the way to its file, which begins at the scene's own.
+        // An image's name is the path to its file, relative to the scene's.
         EXPECT_EQ(std::filesystem::weakly_canonical(a.images[i].name),
                   std::filesystem::weakly_canonical(b.images[i].name));
         EXPECT_EQ(a.images[i].format, b.images[i].format);

@@ -1,4 +1,4 @@
-// Layers of materials in scene files, by the table that their reader and their writer follow.
+// Material layers in scene files, by the table that reader and writer share.
 #include "scenes/MaterialLayers.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 namespace tessera::scenes {
 namespace {
 
-/// Layers with none of the values that a material has of itself, and the keys of each as they are documented.
+/// A material whose layers have no default values, and the documented keys of each layer.
 struct LayeredMaterial {
     Material material;
     std::vector<std::vector<std::string>> keys;
@@ -49,7 +49,7 @@ TEST(MaterialLayers, areWrittenByTheirKeysAndReadBackWithoutFields) {
     for (const auto& [key, value] : json.items())
         if (std::ranges::find(expected, key) != expected.end()) seen.push_back(key);
     EXPECT_EQ(seen, expected);                            // in that order
-    EXPECT_FALSE(json.contains("fields")) << json.dump(); // all was read back as it is
+    EXPECT_FALSE(json.contains("fields")) << json.dump(); // all values were read back
     EXPECT_EQ(json["clearcoatNormalMap"].dump(), R"({"image":0,"scale":2.0})");
     EXPECT_EQ(json["sheenColor"].dump(), "[0.25,0.5,0.75]");
 }

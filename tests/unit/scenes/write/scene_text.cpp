@@ -17,7 +17,7 @@ namespace {
 
 using namespace test;
 
-/// Scenes that are saved in the folder of a test.
+/// Tests that save scenes in their folder.
 class SceneText : public SceneFiles {
 protected:
     std::string in(const char* name) const { return (folder.path() / name).string(); }
@@ -29,7 +29,7 @@ void store(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file) << text;
 }
 
-/// What is loaded after `scene`, that came from `origin`, was written to `file`. The schema must accept it.
+/// Writes `scene`, which came from `origin`, to `file` and returns the loaded file. The schema must accept it.
 Scene saved(const Scene& scene, const SceneOrigin& origin, const std::filesystem::path& file) {
     const std::string text = sceneText(scene, origin, file);
     EXPECT_TRUE(schemaAccepts(text)) << text;
@@ -77,7 +77,7 @@ void expectRoundTrip(const std::string& nameOrPath, const LoadOptions& options =
     expectSameScene(saved(scene, origin, folder.path() / "deep" / "er" / "edited.json"), scene);
 }
 
-/// All but one that takes seconds to make, and is written as head_skin is; or every other one.
+/// All scenes but one that is slow to make and is written like head_skin; a reduced sweep takes every other one.
 void expectRoundTripsOfBuiltinScenes() {
     std::size_t turn = 0;
     for (const BuiltinScene& builtin : builtinScenes())
@@ -116,7 +116,7 @@ TEST_F(SceneText, everyKindOfFileIsLoadedBackIdentically) {
     expectRoundTrip(gltf.folder.file("model.gltf", gltf.json.dump()));
 }
 
-/// A folder with a scene of one picture, and its origin.
+/// A folder with a scene of one image, and its origin.
 struct Bust {
     SceneFolder folder;
     std::string path = folder.file("bust.json", R"({"tessera": 1, "base": {"file": "models/bust.obj"},
@@ -138,14 +138,14 @@ TEST_F(SceneText, everyLightIsLoadedBackIdenticallyWithUnusedFields) {
                 bust.scene.lights.emplace_back(edits.light(type.type, falloff)).animation = edits.animation(kind);
         }
     Light wide = edits.light(LightType::Spot, Falloff::InverseSquare);
-    wide.outerConeRadians = 3.0f; // the keys end at a right angle
+    wide.outerConeRadians = 3.0f; // beyond the right angle that the keys allow
     wide.rangeMetres = kInfinity;
     wide.name.clear();
     bust.scene.lights.push_back(wide);
     EXPECT_TRUE(bust.savedScene().lights == bust.scene.lights);
 }
 
-/// Of every model with each masking and space of normal maps, or with one of these in turn.
+/// Materials of every model with each masking and normal-map space; a reduced sweep takes every third.
 void expectRoundTripsOfMaterials() {
     Bust bust;
     Edits edits(2);
@@ -193,7 +193,7 @@ TEST_F(SceneText, everyCameraIsLoadedBackIdentically) {
         Camera& camera = bust.scene.cameras.emplace_back(bust.scene.cameras.front());
         camera.name = i == 0 ? "" : "edited";
         camera.worldFromCamera[3] = glm::dvec4(edits.point(), 1.0);
-        camera.fovYRadians = 0.01 + 3.0 * edits.share(); // few are a number of degrees exactly
+        camera.fovYRadians = 0.01 + 3.0 * edits.share(); // rarely an exact number of degrees
         camera.halfHeightMetres = 0.01 + edits.share();
         camera.projection = i % 2 == 0 ? Projection::Perspective : Projection::Orthographic;
         camera.nearMetres = 0.01 + edits.share();
@@ -273,7 +273,7 @@ TEST_F(SceneText, theVariantThatIsShownIsSavedAlsoBySavedFilesOfSavedFiles) {
     Scene scene = loadScene(car, red);
     ASSERT_EQ(scene.materials.size(), 2u);
     const SceneOrigin origin = originOf(car, red, scene);
-    scene.materials[1].metallic = 0.25f; // a material that only the variant has
+    scene.materials[1].metallic = 0.25f; // a material of the variant alone
     const std::filesystem::path first = folder.path() / "first.json", second = folder.path() / "second.json";
     expectSameScene(saved(scene, origin, first), scene);
     Scene again = loadScene(first.string());
@@ -309,7 +309,7 @@ TEST_F(SceneText, whatIsEditedOfAVariantsOwnMaterialIsLeftOutOfOthersAndSaid) {
         }
         ASSERT_EQ(shown.warnings.size(), 1u);
         EXPECT_EQ(shown.warnings[0], "'ruby', which replaces material 1, is not in this variant and left out");
-        // Saved in this variant it loads back the same, now without a word.
+        // Saved in this variant, it loads back identically and without a warning.
         Scene again = saved(shown, originOf(first.string(), other, shown), second);
         EXPECT_EQ(again.materials, shown.materials);
         EXPECT_TRUE(again.warnings.empty());
@@ -395,7 +395,7 @@ TEST_F(SceneText, keepsTheHookOfTheBaseAndItsNewValues) {
     scene.hook->parameters[0].value = 0.7f;
     Scene again = saved(scene, originOf(base.string(), {}, loadScene(base.string())), file);
     EXPECT_EQ(again.hook, scene.hook);
-    // A document of edits alone is replaced.
+    // A document that holds edits alone is replaced.
     again.hook->parameters[0].value = 0.25f;
     EXPECT_EQ(saved(again, originOf(file.string(), {}, loadScene(file.string())), file).hook, before);
 }

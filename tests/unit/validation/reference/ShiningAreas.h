@@ -4,14 +4,14 @@
 #include "scenes/AreaLight.h"
 #include "validation/reference/AreaLights.h"
 
-/// Area lights for the reference's integrals, and what a point has of them.
+/// Area lights for the reference's integrals, and their configuration factors.
 namespace tessera::test {
 
-/// Of the integral as it is by default. Rules that differ by 2e-5 of it are themselves a few times 1e-6 wrong; most of
-/// that is where the horizon cuts a light.
+/// Relative error of the default cubature. Rules that differ by 2e-5 are themselves wrong by a few times 1e-6, mostly
+/// where the horizon cuts a light.
 inline constexpr double kCubature = 2e-5;
 
-/// Of radiance 1, without a range.
+/// An area light of radiance 1 without a range.
 inline reference::ShiningLight shiningArea(scenes::LightType type, const glm::dvec3& middle,
                                            const glm::dvec3& direction = {0, 0, -1}) {
     reference::ShiningLight shining;
@@ -33,7 +33,7 @@ inline reference::ShiningLight rectangle(const glm::dvec3& middle, const glm::dv
     return shining;
 }
 
-/// Of a point at the origin whose normal is +Z, without the model's 1/pi.
+/// Configuration factor of a light at the origin: its irradiance at radiance 1, over pi.
 inline double factorOf(const reference::ShiningLight& light, const glm::dvec3& normal = {0, 0, 1},
                        const reference::Settings& settings = {}) {
     return reference::irradianceOf(light, glm::dvec3(0.0), normal, settings).g / std::numbers::pi;

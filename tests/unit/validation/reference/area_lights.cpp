@@ -1,5 +1,5 @@
-// Integrals over area lights, held to what is known in closed form. A surface of Lambert's model without its 1/pi shows
-// pi L F of a light of radiance L, F being the light's configuration factor.
+// Integrals over area lights, compared with closed forms. A surface of Lambert's model without its 1/pi reflects pi L F
+// of a light of radiance L, with the light's configuration factor F.
 #include "validation/reference/AreaLights.h"
 
 #include <cmath>
@@ -40,8 +40,8 @@ glm::dvec3 viewerAt(double cosine) {
 
 // ---- Configuration factors -----------------------------------------------------------------------------------------
 
-/// Siegel and Howell 1972, "Thermal Radiation Heat Transfer": an element parallel to a rectangle of sides a and b, at a
-/// distance c below its corner.
+/// Configuration factor of a rectangle of sides a and b for a parallel element at a distance c below its corner.
+/// Source: Siegel and Howell 1972, "Thermal Radiation Heat Transfer".
 double belowCorner(double a, double b, double c) {
     const double x = a / c, y = b / c, p = std::sqrt(1.0 + x * x), q = std::sqrt(1.0 + y * y);
     return (x / p * std::atan(y / p) + y / q * std::atan(x / q)) / (2.0 * pi);
@@ -49,7 +49,7 @@ double belowCorner(double a, double b, double c) {
 
 TEST(ReferenceAreaLights, aRectangleAboveAPointHasItsPublishedFactor) {
     for (const double height : {0.05, 0.5, 2.0, 40.0}) {
-        // The foot of the point lies in a quarter of 0.5 m by 0.25 m and three others.
+        // The point's projection divides the rectangle into four, the smallest of 0.5 m by 0.25 m.
         const ShiningLight light = rectangle({0.5, 0.25, height}, {0, 0, -1}, {1, 0, 0}, 2.0f, 1.0f);
         const double wanted = belowCorner(1.5, 0.75, height) + belowCorner(0.5, 0.75, height) +
                               belowCorner(1.5, 0.25, height) + belowCorner(0.5, 0.25, height);
@@ -58,15 +58,15 @@ TEST(ReferenceAreaLights, aRectangleAboveAPointHasItsPublishedFactor) {
 }
 
 TEST(ReferenceAreaLights, aRectangleAtRightAnglesHasItsPublishedFactor) {
-    // Siegel and Howell 1972: it stands on the plane of the element, a corner of it over against the element; b wide,
-    // a high, c away.
+    // Siegel and Howell 1972: a rectangle that stands on the element's plane, with a corner opposite the element; b
+    // wide, a high, c away.
     for (const double c : {0.1, 1.0, 7.0}) {
         const double a = 1.5, b = 0.75, x = a / b, y = c / b;
         const double root = std::sqrt(x * x + y * y);
         const double wanted = (std::atan(1.0 / y) - y / root * std::atan(1.0 / root)) / (2.0 * pi);
         const ShiningLight light = rectangle({c, 0.5 * b, 0.5 * a}, {-1, 0, 0}, {0, 1, 0}, float(b), float(a));
         EXPECT_NEAR(factorOf(light), wanted, kCubature * wanted) << c;
-        // Reaching as far below the horizon changes nothing.
+        // An equal part below the horizon changes nothing.
         const ShiningLight cut = rectangle({c, 0.5 * b, 0.0}, {-1, 0, 0}, {0, 1, 0}, float(b), float(2.0 * a));
         EXPECT_NEAR(factorOf(cut), wanted, kCubature * wanted) << c;
     }
@@ -77,15 +77,15 @@ TEST(ReferenceAreaLights, aDiskHasItsPublishedFactor) {
         const ShiningLight above = shiningArea(LightType::Disk, {0, 0, height});
         const double wanted = 0.25 / (0.25 + height * height);
         EXPECT_NEAR(factorOf(above), wanted, kCubature * wanted) << height;
-        // Siegel and Howell 1972, of an element parallel to the disk, at a distance of 0.8 from its axis.
+        // Siegel and Howell 1972: an element parallel to the disk, at a distance of 0.8 from its axis.
         const double h = height / 0.8, r = 0.5 / 0.8, z = 1.0 + h * h + r * r;
         const double beside = 0.5 * (1.0 - (z - 2.0 * r * r) / std::sqrt(z * z - 4.0 * r * r));
         EXPECT_NEAR(factorOf(shiningArea(LightType::Disk, {0.8, 0, height})), beside, kCubature * beside) << height;
     }
 }
 
-/// Snyder 1996, "Area Light Sources for Real-Time Graphics", as Lagarde and de Rousiers 2014, "Moving Frostbite to
-/// Physically Based Rendering", print it: a sphere that the horizon cuts.
+/// Configuration factor of a sphere that the horizon cuts. Source: Snyder 1996, "Area Light Sources for Real-Time
+/// Graphics", as in Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering".
 double cutSphere(double radius, double distance, double cosine) {
     const double h = distance / radius, sine = std::sqrt(1.0 - cosine * cosine);
     const double x = std::sqrt(h * h - 1.0), y = -x * cosine / sine, root = std::sqrt(1.0 - y * y);
@@ -107,8 +107,8 @@ TEST(ReferenceAreaLights, aSphereHasItsPublishedFactorAndTheHorizonCutsIt) {
     EXPECT_EQ(factorOf(shiningArea(LightType::Sphere, {0, 0, 0.4})), 0.0) << "it shines outwards alone";
 }
 
-/// Howell, "A Catalog of Radiation Heat Transfer Configuration Factors": a cylinder of this length and radius whose
-/// axis passes over the element at a distance, and ends there.
+/// Howell, "A Catalog of Radiation Heat Transfer Configuration Factors": a cylinder of this length and radius, whose
+/// axis is at this distance above the element and ends over it.
 double besideCylinder(double length, double radius, double distance) {
     const double l = length / radius, h = distance / radius;
     const double x = (1.0 + h) * (1.0 + h) + l * l, y = (1.0 - h) * (1.0 - h) + l * l;
@@ -124,7 +124,7 @@ TEST(ReferenceAreaLights, aTubeHasThePublishedFactorOfACylinderAndShinesFromItsE
         const double wanted = 2.0 * besideCylinder(1.5, 0.5, distance);
         EXPECT_NEAR(factorOf(light), wanted, kCubature * wanted) << distance;
     }
-    // Upright only its lower end is seen.
+    // Upright, only its lower end is visible.
     ShiningLight light = shiningArea(LightType::Tube, {0, 0, 2.5}, {0, 0, 1});
     light.light.lengthMetres = 3.0f;
     EXPECT_NEAR(factorOf(light), 0.2, kCubature * 0.2);
@@ -138,10 +138,10 @@ TEST(ReferenceAreaLights, aHollowedPolygonGivesTheSumOfItsParts) {
         for (const glm::vec2& place : places) corners.add(place);
         return corners;
     };
-    // A bridge: a square of 2 m with a notch; and its legs and the bar between.
+    // A bridge, which is a square of 2 m with a notch; its parts are two legs and the bar between.
     const scenes::LightCorners whole =
         withCorners({{-1, -1}, {-0.5f, -1}, {-0.5f, 0.5f}, {0.5f, 0.5f}, {0.5f, -1}, {1, -1}, {1, 1}, {-1, 1}});
-    const std::pair<glm::dvec2, glm::dvec2> parts[] = {// the middle, and the sides
+    const std::pair<glm::dvec2, glm::dvec2> parts[] = {// centre and sides
                                                        {{-0.75, -0.25}, {0.5, 1.5}},
                                                        {{0.75, -0.25}, {0.5, 1.5}},
                                                        {{0.0, 0.75}, {2.0, 0.5}}};
@@ -179,8 +179,8 @@ TEST(ReferenceAreaLights, farAwayEveryLightGivesItsProjectedArea) {
         light.positionRWS = 1e4 * random.around({0, 0, 1}, 0.1, 1.0);
         const Incident small = incidentAt(light, glm::dvec3(0.0));
         const double wanted = small.irradiance.g * small.toLight.z / pi;
-        // Its ends are up to 1e-4 of the distance nearer or farther than its middle; so are directions to them, which
-        // counts where it is seen nearly edge-on.
+        // Its ends are up to 1e-4 of the distance nearer or farther than its centre. Directions to them differ as much,
+        // which matters where it is viewed nearly edge-on.
         const double most = 4.0 / (1e8 * pi);
         EXPECT_NEAR(factorOf(light), wanted, 4e-4 * most) << i;
     }
@@ -195,12 +195,12 @@ TEST(ReferenceAreaLights, flatLightsShineForwardUnlessTheyHaveTwoSides) {
         EXPECT_EQ(factorOf(light), 0.0);
         EXPECT_EQ(incidentAt(light, glm::dvec3(0.0)).irradiance, glm::dvec3(0.0));
         light.light.isTwoSided = true;
-        // The same squares of a rectangle and a disk, but turning mirrors a polygon's outline, and its triangles are
-        // cut by the other diagonal. The integrator promises Settings::areaTolerance alone; where no lobe and no
-        // horizon cuts a light, its rule of seven points a side leaves 1e-11 of the integral, whatever the triangles.
+        // A rectangle and a disk keep their squares. Reversing mirrors a polygon's outline, so its triangles have the
+        // other diagonal. The integrator guarantees Settings::areaTolerance alone; where no lobe and no horizon cuts a
+        // light, its rule of seven points per side errs by 1e-11 of the integral for any triangles.
         EXPECT_NEAR(factorOf(light), front, 1e-10 * front);
         EXPECT_GT(incidentAt(light, glm::dvec3(0.0)).irradiance.g, 0.0);
-        light.positionRWS = {0.3, 0.2, 0.0}; // a lune of all directions before it is above the horizon
+        light.positionRWS = {0.3, 0.2, 0.0}; // above the horizon is a lune of the directions before it
         EXPECT_NEAR(factorOf(light, {0.6, 0.0, 0.8}), 0.5 * (1.0 - 0.8), 1e-6);
         light.positionRWS.x = 3.0;
         EXPECT_EQ(factorOf(light, {0.6, 0.0, 0.8}), 0.0) << "edge-on nothing is seen from beside it";
@@ -228,8 +228,8 @@ TEST(ReferenceAreaLights, aMirrorShowsALightsRadianceInsideItsOutlineAndNothingO
         ShiningLight light = shiningArea(type, 2.0 * reflection, -reflection);
         light.light.alongWS = aside;
         light.light.lengthMetres = 1.0f;
-        // A peak of this alpha has 1 - 1/(1 + (t/alpha)^2) of its light within half vectors of slope t: at least 0.1
-        // here, all but 1e-4. The rest is masked, alpha^2 / 4.
+        // The fraction 1 - 1/(1 + (t/alpha)^2) of a peak's light is within half vectors of slope t. Here t is at least
+        // 0.1, so all but 1e-4 is. Masking takes the rest, alpha^2 / 4.
         for (const double offset : {0.0, 0.15, -0.25}) {
             light.positionRWS = 2.0 * reflection + offset * aside;
             EXPECT_NEAR(shownBy(mirror, light, toViewer), 1.0, 3e-4) << scenes::infoOf(type).name << ' ' << offset;
@@ -242,7 +242,7 @@ TEST(ReferenceAreaLights, aMirrorShowsALightsRadianceInsideItsOutlineAndNothingO
 }
 
 TEST(ReferenceAreaLights, highlightsAreFoundInLargeLightsHoweverSmallTheyAre) {
-    // So large that its directions turn by thousands of their widths, and they are nowhere near its middle.
+    // A light that spans thousands of highlight widths, with highlights far from its centre.
     const ShiningLight light = rectangle({2.9, 1.7, 1.0}, {0, 0, -1}, {1, 0, 0}, 20.0f, 14.0f);
     SurfacePoint coated = whiteMetal(1.0);
     coated.coatNormal = coated.normal;
@@ -251,7 +251,7 @@ TEST(ReferenceAreaLights, highlightsAreFoundInLargeLightsHoweverSmallTheyAre) {
     coated.coat = 1.0;
     const double weight = 0.04 + 0.96 * std::pow(0.2, 5);
     EXPECT_NEAR(shownBy(coated, light, viewerAt(0.8)), (1.0 - weight) * bare + weight, 5e-5);
-    // The integral of (n.h)^p over all l with the viewer along n, where dl = 4 n.h dh; nothing of it is left aside.
+    // The integral of (n.h)^p over all l with the viewer along n, where dl = 4 n.h dh; the light covers all of it.
     SurfacePoint shiny = surfaceOf(MaterialModel::BlinnPhong);
     for (const double exponent : {1e2, 1e4, 1e6}) {
         shiny.roughness = exponent;
@@ -263,7 +263,7 @@ TEST(ReferenceAreaLights, highlightsAreFoundInLargeLightsHoweverSmallTheyAre) {
     }
 }
 
-/// Six rectangles that close a box around the origin, which is not in its middle.
+/// Six rectangles that close a box around the origin, which is off its centre.
 std::vector<ShiningLight> boxOfLights() {
     std::vector<ShiningLight> sides;
     const glm::dvec3 least(-0.7, -1.3, -0.4), most(0.9, 0.6, 1.1), middle = 0.5 * (least + most);
@@ -287,9 +287,9 @@ TEST(ReferenceAreaLights, aBoxOfLightsIsAnEvenEnvironment) {
         for (const ShiningLight& side : box) sum += shownBy(point, side, viewerAt(cosine));
         return sum;
     };
-    // Corners of the box are rounded to fp32, 6e-8, so that its seams gape or overlap by as much.
+    // Corners of the box are rounded to fp32, 6e-8, so its seams have gaps or overlaps of that size.
     EXPECT_NEAR(shown(surfaceOf(MaterialModel::Lambert), 0.5), pi, 1e-5);
-    // The published table of height-correlated masking: as exact as it is printed.
+    // The published table of height-correlated masking, to its printed digits.
     EXPECT_NEAR(shown(whiteMetal(0.05), 0.1), 0.9113, 2e-4);
     EXPECT_NEAR(shown(whiteMetal(0.25), 0.25), 0.8401, 2e-4);
     EXPECT_NEAR(shown(whiteMetal(0.5), 0.5), 0.6982, 2e-4);
@@ -318,7 +318,7 @@ ShiningLight randomArea(test::Random& random, LightType type, const glm::dvec3& 
     light.light.widthMetres = float(random.logarithmic(0.02, 3.0));
     light.light.heightMetres = float(random.logarithmic(0.02, 3.0));
     light.light.lengthMetres = float(random.logarithmic(0.02, 3.0));
-    light.light.corners.metres[2] = {-0.2f, 0.0f}; // points inwards
+    light.light.corners.metres[2] = {-0.2f, 0.0f}; // a reflex corner
     for (glm::vec2& corner : light.light.corners.metres)
         corner *= glm::vec2(light.light.widthMetres, light.light.heightMetres);
     light.light.isTwoSided = true;
@@ -327,7 +327,7 @@ ShiningLight randomArea(test::Random& random, LightType type, const glm::dvec3& 
     return light;
 }
 
-/// Of any model, its lobes from wide to 0.02, with layers and wrapped light.
+/// A random surface of a model, with alphas from 1 to 0.02, layers and wrapped light.
 SurfacePoint randomSurface(test::Random& random, MaterialModel model) {
     SurfacePoint point = surfaceOf(model, random.logarithmic(0.02, 1.0));
     point.color = {random.unit(), random.unit(), random.unit()};
@@ -375,7 +375,7 @@ TEST(ReferenceAreaLights, everyModelAndTypeAgreesWithMonteCarloIntegration) {
         const Estimate fine =
             i % 6 == 0 ? reflectedOf(light, point, glm::dvec3(0.0), toViewer, true, onlyLobes, finer) : found;
         for (int c = 0; c < 3; ++c) {
-            // Eight parts tell a standard error to a quarter of it: five of them are often passed, nine hardly ever.
+            // Eight parts estimate a standard error to a quarter: five errors are often exceeded, nine hardly ever.
             ASSERT_NEAR(found.light[c], wanted.light[c],
                         9.0 * std::sqrt(wanted.variance[c]) + 1e-4 * wanted.light[c] + 1e-9)
                 << i << ' ' << c;
@@ -388,7 +388,7 @@ TEST(ReferenceAreaLights, everyModelAndTypeAgreesWithMonteCarloIntegration) {
         ++seen;
     }
     EXPECT_GT(seen, 25);
-    // A tenth of what a picture of rough metals is held to, relMse 1e-6, and no more than is told.
+    // A tenth of the limit for images of rough metals, relMse 1e-6, and no more than the reported variance.
     EXPECT_LE(squares / seen, 1e-7);
     EXPECT_LE(squares, squaresTold);
 }

@@ -1,4 +1,4 @@
-// The integral over the surface, held to what is known of a plane.
+// The diffusion integral over the surface, compared with closed forms on a plane.
 #include "validation/reference/Diffusion.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 namespace builtin = scenes::builtin;
 
-/// A strip of the scene diffusion_truth from above, around a place; rows differ in their random points alone.
+/// Renders a strip of diffusion_truth from above, around a point; rows differ in their random points alone.
 Rendered strip(const scenes::Scene& scene, const glm::dvec3& middleWS, glm::ivec2 sizePixels, double widthMetres) {
     Settings settings;
     settings.sizePixels = sizePixels;
@@ -32,7 +32,7 @@ Rendered strip(const scenes::Scene& scene, const glm::dvec3& middleWS, glm::ivec
     return render(scene, settings);
 }
 
-/// RMS of the difference of a channel's mean over the rows, by that of the truth.
+/// RMS error of a channel's mean over the rows, relative to the RMS of the truth.
 template <typename Truth>
 double errorOf(const Rendered& rendered, int channel, double widthMetres, Truth truth) {
     double wrong = 0.0, whole = 0.0;
@@ -50,7 +50,7 @@ double errorOf(const Rendered& rendered, int channel, double widthMetres, Truth 
 TEST(ReferenceDiffusion, aStepOfLightIsASumOfErrorFunctions) {
     const scenes::Scene scene = scenes::loadScene("diffusion_truth");
     constexpr double kWidth = 0.4;
-    // So low a strip that a column is one distance from the edge.
+    // The strip is so low that each column has one distance from the edge.
     const Rendered rendered = strip(scene, {builtin::kTruthEdgeX, 0.0, 0.0}, {80, 16}, kWidth);
     for (int channel = 0; channel < 3; ++channel) {
         const double error =
@@ -85,7 +85,7 @@ TEST(ReferenceDiffusion, aDotOfLightIsTheProfile) {
     }
     const double error = std::sqrt(wrong / whole);
     fmt::print("dot: {:.2e}\n", error);
-    // The noise of points that find the dot: measured 0.015.
+    // Noise of the points that hit the dot: measured 0.015.
     EXPECT_LE(error, 0.03);
 }
 
@@ -96,7 +96,7 @@ TEST(ReferenceDiffusion, anAreaLightEntersAsOneFromFarAwayDoesOfTheSameIrradianc
     light.type = scenes::LightType::Directional;
     light.directionWS = {0.0, -1.0, 0.0};
     const Rendered wanted = strip(scene, builtin::kTruthDotWS, {8, 4}, 0.1);
-    // Seen at 45 degrees all around; a small light of its area would give twice as much.
+    // The disk has a half angle of 45 degrees; a small light of its area would give twice as much.
     light.type = scenes::LightType::Disk;
     light.positionWS = glm::dvec3(0.0, 1000.0, 0.0);
     light.radiusMetres = 1000.0f;
@@ -104,7 +104,7 @@ TEST(ReferenceDiffusion, anAreaLightEntersAsOneFromFarAwayDoesOfTheSameIrradianc
     const Rendered found = strip(scene, builtin::kTruthDotWS, {8, 4}, 0.1);
     for (std::size_t i = 0; i < wanted.radiance.size(); ++i) {
         ASSERT_GT(wanted.radiance[i].g, 0.0);
-        // The integral that spreads takes irradiance to 1e-3 at worst.
+        // The diffusion integral takes irradiance that errs by at most 1e-3.
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(found.radiance[i][c], wanted.radiance[i][c], 1e-3 * wanted.radiance[i][c]) << i;
     }

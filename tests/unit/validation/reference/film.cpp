@@ -1,4 +1,4 @@
-// Thin films of the reference: against closed forms for single waves, no film, and films too thick to interfere.
+// Thin films of the reference, compared with closed forms for single waves, no film, and films too thick to interfere.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -12,7 +12,7 @@
 namespace tessera::reference {
 namespace {
 
-/// Fresnel's equations at normal incidence.
+/// Reflectance at normal incidence, by Fresnel's equations.
 double straightSide(double ior) {
     return (ior - 1.0) * (ior - 1.0) / ((ior + 1.0) * (ior + 1.0));
 }
@@ -21,7 +21,7 @@ TEST(ReferenceFilm, ofNoThicknessLeavesWhatTheSurfaceReflects) {
     test::Random random(31);
     for (int i = 0; i < 100; ++i) {
         const glm::dvec3 straight = glm::dvec3(random.unit(), random.unit(), random.unit()) * 0.6;
-        // Of light that goes back and forth more than four times nothing is summed: below 1e-4 up to this index.
+        // Light of more than four round trips in the film is omitted: an error below 1e-4 up to this index.
         const glm::dvec3 shown = filmReflectance(straight, 1.0, 1.0 + 0.4 * random.unit(), 0.0);
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(shown[c], straight[c], 1e-4) << i;
     }
@@ -33,7 +33,7 @@ TEST(ReferenceFilm, withTheIndexOfAirIsNotSeen) {
             EXPECT_NEAR(filmReflectance(glm::dvec3(straight), 1.0, 1.0, thicknessNm).g, straight, 1e-12);
 }
 
-/// Both sides' light adds up by its power, over all ways back and forth.
+/// The powers of both interfaces' light add up, over all round trips.
 TEST(ReferenceFilm, tooThickToInterfereReflectsWhatBothSidesDo) {
     for (const double filmIor : {1.3, 1.8, 2.5})
         for (const double ior : {1.2, 1.5, 4.0}) {
@@ -47,18 +47,18 @@ TEST(ReferenceFilm, tooThickToInterfereReflectsWhatBothSidesDo) {
         }
 }
 
-/// The coating of lenses: of the mean index and a quarter of a wave thick, both sides cancel.
+/// An antireflective coating: with the mean index and a quarter wave of thickness, both interfaces cancel.
 TEST(ReferenceFilm, aQuarterOfAWaveTakesTheReflectionFromGlass) {
     constexpr double kGreenNm = 1000.0 / 1.7953;
     const double filmIor = std::sqrt(1.5);
     const glm::dvec3 coated = filmReflectance(glm::dvec3(0.04), 1.0, filmIor, 0.25 * kGreenNm / filmIor);
     EXPECT_LT(coated.g, 0.001) << "of 0.04";
     EXPECT_GT(coated.b, 0.004) << "other colours stay";
-    // Half a wave is as none for green.
+    // Half a wave acts like no film for green.
     EXPECT_GT(filmReflectance(glm::dvec3(0.04), 1.0, filmIor, 0.5 * kGreenNm / filmIor).g, 0.03);
 }
 
-/// The mean of what a normal distribution of wave numbers shows, by the trapezoidal rule.
+/// The mean reflectance over a normal distribution of wave numbers, by the trapezoidal rule.
 double meanOver(double middle, double variance, const auto& reflectanceAt) {
     constexpr int kSteps = 400;
     constexpr double kDeviations = 6.0;
@@ -71,8 +71,8 @@ double meanOver(double middle, double variance, const auto& reflectanceAt) {
     return sum / weights;
 }
 
-/// Airy's closed form for a wave, of light that goes back and forth without end: |a + b z|^2 / |1 + a b z|^2 of the two
-/// sides' amplitudes and the phase between them. The sensitivities are those of Belcour and Barla 2017, per micrometre.
+/// Airy's closed form of a wave for infinitely many round trips: |a + b z|^2 / |1 + a b z|^2 of the two interfaces'
+/// amplitudes and the phase between them. The sensitivities are those of Belcour and Barla 2017, per micrometre.
 glm::dvec3 airysColor(double straight, double cosine, double filmIor, double thicknessNm) {
     const auto grazing = [](double ofStraight, double c) {
         return ofStraight + (1.0 - ofStraight) * std::pow(1.0 - c, 5.0);
@@ -87,7 +87,7 @@ glm::dvec3 airysColor(double straight, double cosine, double filmIor, double thi
         const std::complex<double> z = std::polar(1.0, 2.0 * std::numbers::pi * wayMicrometres * waveNumber);
         return std::norm((a + b * z) / (1.0 + a * b * z));
     };
-    const double first = 5.4856 * std::sqrt(4.3278), second = 0.97470 * std::sqrt(4.5282); // weights of x's two
+    const double first = 5.4856 * std::sqrt(4.3278), second = 0.97470 * std::sqrt(4.5282); // weights of x's two lobes
     const glm::dvec3 xyz((first * meanOver(1.6810, 2.0 * 4.3278e-3, reflectance) +
                           second * meanOver(2.2399, 2.0 * 4.5282e-3, reflectance)) /
                              (first + second),
@@ -101,7 +101,7 @@ glm::dvec3 airysColor(double straight, double cosine, double filmIor, double thi
     return glm::clamp(color, 0.0, 1.0);
 }
 
-/// Light that goes back and forth more than four times is left out: 6e-4 and, on a metal, 0.018.
+/// Light of more than four round trips is omitted: 6e-4 and, on a metal, 0.018.
 TEST(ReferenceFilm, isAirysClosedFormAtAnyThicknessAndAngle) {
     double apart = 0.0;
     for (const double straight : {0.04, 0.3, 0.9})
@@ -118,7 +118,7 @@ TEST(ReferenceFilm, isAirysClosedFormAtAnyThicknessAndAngle) {
     EXPECT_GT(apart, 0.3) << "in colour";
 }
 
-/// Sums beyond these bounds are clamped; what is left to fail is a number that is none.
+/// Sums beyond these bounds are clamped, so only NaN can fail.
 TEST(ReferenceFilm, reflectsBetweenNothingAndAll) {
     test::Random random(32);
     for (int i = 0; i < 2000; ++i) {

@@ -52,7 +52,7 @@ TEST(ReferencePyramid, oddSizesWeighTexelsByTheAreaThatIsCovered) {
     EXPECT_NEAR(pyramid.texel(2, 0, 0).r * 255.0, 20.0, 1e-5);
 }
 
-/// The mean of an even slope over a texel is its value at the centre, at every level.
+/// The mean of a linear slope over a texel is its value at the centre, at every level.
 TEST(ReferenceFiltering, anEvenSlopeIsTheSameAtEveryLevel) {
     const Image image = ramp(16);
     const Pyramid pyramid(image, Transfer::Linear, true);
@@ -76,7 +76,7 @@ TEST(ReferenceFiltering, theLevelIsTheLogarithmOfTheLongerSideInTexels) {
     EXPECT_EQ(levelOf({}, {16, 16}), kMagnified);
 }
 
-/// Which levels are read, and with what weight: every level of a checkerboard but its own is even.
+/// The levels that are read, and their weights: all levels of a checkerboard but the first are uniform.
 TEST(ReferenceFiltering, everyFilterTakesTheLevelsOfTheSpecification) {
     const Image image = grey(8, 8, [](int x, int y) { return (x + y) % 2 * 200; });
     const Pyramid pyramid(image, Transfer::Linear, true);
@@ -96,7 +96,7 @@ TEST(ReferenceFiltering, everyFilterTakesTheLevelsOfTheSpecification) {
         {Filter::Nearest, Filter::LinearMipmapLinear, 0.25, 0.25 * mean},
         {Filter::Nearest, Filter::LinearMipmapLinear, 1.75, mean},
         {Filter::Nearest, Filter::LinearMipmapLinear, 50.0, mean},
-        // Smooth magnification goes on to half a level before single texels of levels.
+        // Linear magnification extends to half a level where minification takes single texels of levels.
         {Filter::Linear, Filter::NearestMipmapLinear, 0.5, nearestTexel},
         {Filter::Linear, Filter::NearestMipmapLinear, 0.75, 0.75 * mean},
     };

@@ -15,7 +15,7 @@ namespace {
 using scenes::HookedSurface;
 using scenes::HookPoint;
 
-/// A scene whose hook changes all materials, and how it is looked at.
+/// A scene whose hook changes all materials, and the settings of its view.
 struct HookedView {
     scenes::Scene scene;
     Settings settings;
@@ -26,7 +26,7 @@ struct HookedView {
         settings.sizePixels = {48, 27};
         settings.camera = scene.cameras.front();
     }
-    /// As if the hook did that to every point.
+    /// Renders as if the hook applied `change` to every point.
     template <class Change>
     Rendered rendered(const Change& change) const {
         Settings hooked = settings;

@@ -58,7 +58,7 @@ TEST(ReferenceLight, everyLightIsTheTextbooks) {
         glm::dvec3 toLightWS;
         const glm::dvec3 wanted = test::textbook::incident(light, positionWS, toLightWS);
         const Incident found = incidentAt(shining(light), positionWS);
-        // The textbook takes the cosines of a cone in single precision, which a closing cone magnifies.
+        // The textbook computes a cone's cosines in single precision, an error that narrow cones magnify.
         if (light.type == LightType::Spot) light.type = LightType::Point;
         const double open = incidentAt(shining(light), positionWS).irradiance.r;
         for (int c = 0; c < 3; ++c) ASSERT_NEAR(found.irradiance[c], wanted[c], 1e-6 * open) << i;
@@ -122,7 +122,7 @@ TEST(ReferenceLight, aToleranceEndsALightWhereTheProductEndsIt) {
 
 // ---- Area lights ---------------------------------------------------------------------------------------------------
 
-/// Two metres over the origin, and 4 m2 seen from straight below, but the tube's 2 m2 of mantle.
+/// An area light 2 m above the origin, with 4 m2 visible from straight below; the tube has 2 m2 without its ends.
 Light areaLight(LightType type) {
     Light light = candela(3.0f, {0, 0, 2});
     light.type = type;
@@ -136,7 +136,7 @@ Light areaLight(LightType type) {
 }
 
 TEST(ReferenceLight, theIrradianceOfASmallAreaLightGoesWithItsProjectedArea) {
-    // From the middle's distance of 2 m; held to pi times the radiance.
+    // At the centre's distance of 2 m; limited to pi times the radiance.
     const auto given = [](double area) { return 3.0 * area / (4.0 + area / std::numbers::pi); };
     const auto at = [](Light light, double angle) {
         light.directionWS = {std::sin(angle), 0.0, -std::cos(angle)};
@@ -158,7 +158,7 @@ TEST(ReferenceLight, theIrradianceOfASmallAreaLightGoesWithItsProjectedArea) {
         const double area = 2.0 * std::sin(angle) + end * std::abs(std::cos(angle));
         EXPECT_NEAR(at(areaLight(LightType::Tube), angle), given(area), 1e-12) << angle;
     }
-    // However near and large: no more than a hemisphere of its radiance.
+    // A near and large light gives at most a hemisphere of its radiance.
     Light vast = areaLight(LightType::Rectangle);
     vast.widthMetres = vast.heightMetres = 1e6f;
     EXPECT_NEAR(at(vast, 0.0), 3.0 * std::numbers::pi, 1e-9);
@@ -174,7 +174,7 @@ TEST(ReferenceLight, anAreaLightsRangeIsItsOwnOrWhereItsIrradianceIsBelowTheTole
         EXPECT_EQ(rangeOf(light, 3.0, 0.0), double(scenes::kInfinity));
         const double range = rangeOf(light, 3.0, kTolerance);
         EXPECT_DOUBLE_EQ(shining(light, settings).rangeMetres, range);
-        // From there the whole light, were it no farther than its nearest place, gives just the tolerance.
+        // At that range the whole light, taken at the distance of its nearest point, gives just the tolerance.
         const double bound = scenes::infoOf(light.type).isTurned() ? std::sqrt(2.0)
                              : light.type == LightType::Tube       ? std::sqrt(1.25)
                                                                    : double(light.radiusMetres);

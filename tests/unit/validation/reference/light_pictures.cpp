@@ -1,4 +1,4 @@
-// Integrals over area lights that shine by a picture.
+// Integrals over area lights with images.
 #include "tests/support/LightPictures.h"
 
 #include <gtest/gtest.h>
@@ -25,15 +25,15 @@ TEST(ReferenceLightPictures, anEvenPictureIsAFactorOfTheLight) {
 }
 
 TEST(ReferenceLightPictures, halfOfAPictureIsHalfOfTheRectangle) {
-    // Two columns of texels are sharp in the middle where many texels a side are: the ramp is a 256th of the width.
+    // With many texels per side the edge between both halves is sharp: the ramp is a 256th of the width.
     const ShiningLight whole = test::rectangle({0.3, 0.0, 1.0}, {0, 0, -1}, {1, 0, 0}, 2.0f, 1.0f);
     ShiningLight pictured = whole;
     pictured.light.texture = test::lightTexture(256, 1, [](int x, int) { return glm::vec3(x < 128 ? 1.0f : 0.0f); });
-    // The left half lies against `along`.
+    // The left half is on the side opposite to `along`.
     const ShiningLight left = test::rectangle({-0.2, 0.0, 1.0}, {0, 0, -1}, {1, 0, 0}, 1.0f, 1.0f);
     EXPECT_NEAR(test::factorOf(pictured), test::factorOf(left), 1e-4 * test::factorOf(whole));
     pictured.light.texture = test::lightTexture(1, 256, [](int, int y) { return glm::vec3(y < 128 ? 1.0f : 0.0f); });
-    // Across: direction x along is -y, and the picture's top lies that way.
+    // Vertically: direction x along is -y, the direction of the image's top.
     const ShiningLight top = test::rectangle({0.3, -0.25, 1.0}, {0, 0, -1}, {1, 0, 0}, 2.0f, 0.5f);
     EXPECT_NEAR(test::factorOf(pictured), test::factorOf(top), 1e-4 * test::factorOf(whole));
     const LightSurface surface(pictured, pictured.positionRWS);
@@ -41,7 +41,7 @@ TEST(ReferenceLightPictures, halfOfAPictureIsHalfOfTheRectangle) {
     EXPECT_EQ(surface.factorAt(glm::normalize(glm::dvec3(0.3, 0.4, 1.0))), glm::dvec3(0.0));
 }
 
-/// A triangle in its square, whose picture is bright outside of one side after the other.
+/// A triangle in its square; the image is bright outside of one side after the other.
 TEST(ReferenceLightPictures, theMeanOfAPolygonsPictureIsOfItsInsideAlone) {
     constexpr int kTexels = 128;
     constexpr double kMargin = 4.0 / kTexels;

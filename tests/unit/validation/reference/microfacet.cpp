@@ -1,4 +1,4 @@
-// The terms of microfacet models against their closed forms and published tables (shading.md, section 6).
+// The terms of microfacet models compared with closed forms and published tables (shading.md, section 6).
 #include "validation/reference/Microfacet.h"
 
 #include <cmath>
@@ -19,8 +19,8 @@ double integral(double b, int steps, const std::function<double(double)>& f) {
     return sum * b / steps;
 }
 
-/// Integral over the hemisphere of half vectors, warped as GGX is, so that its peak is resolved at any alpha:
-/// tan(theta) = alpha tan(t). `f` takes the polar angle; the azimuth is integrated where `f` does so itself.
+/// Integral over the hemisphere of half vectors, warped like GGX so that its peak is resolved at any alpha:
+/// tan(theta) = alpha tan(t). `f` takes the polar angle and includes the integral over the azimuth.
 double overPolarAngles(double alpha, int steps, const std::function<double(double)>& f) {
     return integral(pi / 2.0, steps, [&](double t) {
         const double theta = std::atan(alpha * std::tan(t));
@@ -38,7 +38,7 @@ TEST(ReferenceMicrofacet, theDistributionIntegratesToOne) {
     }
 }
 
-/// Energy that a lobe with F = 1 reflects from a view at the cosine `mu`; `masking` of light and view.
+/// Energy that a lobe with F = 1 reflects for a viewer at the cosine `mu`; `masking` of light and view.
 double directionalAlbedo(double alpha, double mu, const std::function<double(double, double)>& masking) {
     const double sine = std::sqrt(1.0 - mu * mu);
     return overPolarAngles(alpha, 1500, [&](double theta) {
@@ -92,7 +92,7 @@ TEST(ReferenceMicrofacet, correlatedEnergyIsThatOfTheTable) {
             const double alpha = kAlpha[column];
             const double energy =
                 directionalAlbedo(alpha, kMu[row], [&](double l, double v) { return maskingCorrelated(alpha, l, v); });
-            EXPECT_NEAR(energy, kEnergy[row][column], 3e-4) << kMu[row] << ' ' << alpha; // the table's and the rule's
+            EXPECT_NEAR(energy, kEnergy[row][column], 3e-4) << kMu[row] << ' ' << alpha; // errors of table and rule
         }
     }
 }
@@ -101,7 +101,7 @@ TEST(ReferenceMicrofacet, fresnelIsTheFormOfCookAndTorranceToo) {
     for (const double ior : {0.6, 0.95, 1.0001, 1.33, 1.5, 2.4, 30.0}) {
         for (double c = 0.01; c <= 1.0; c += 0.01) {
             const double g2 = ior * ior - 1.0 + c * c;
-            if (std::abs(g2) < 1e-9) continue; // at the critical angle the root magnifies every rounding
+            if (std::abs(g2) < 1e-9) continue; // at the critical angle the root amplifies rounding
             const double g = std::sqrt(std::max(g2, 0.0));
             const double a = (g - c) / (g + c), b = (c * (g + c) - 1.0) / (c * (g - c) + 1.0);
             const double wanted = g2 < 0.0 ? 1.0 : 0.5 * a * a * (1.0 + b * b);
@@ -115,7 +115,7 @@ TEST(ReferenceMicrofacet, fresnelMeetsItsClosedForms) {
     for (const double ior : {0.7, 1.2, 1.5, 2.0}) {
         const double normal = (ior - 1.0) / (ior + 1.0);
         EXPECT_NEAR(fresnelDielectric(ior, 1.0), normal * normal, 1e-15) << ior;
-        // Brewster's angle, tan = ior: nothing of the parallel polarisation; the other is ((ior^2-1)/(ior^2+1))^2.
+        // Brewster's angle, tan = ior: the parallel polarisation vanishes; the other is ((ior^2-1)/(ior^2+1))^2.
         const double share = (ior * ior - 1.0) / (ior * ior + 1.0);
         EXPECT_NEAR(fresnelDielectric(ior, 1.0 / std::sqrt(1.0 + ior * ior)), 0.5 * share * share, 1e-15) << ior;
         EXPECT_NEAR(fresnelDielectric(ior, 0.0), 1.0, 1e-15) << ior;
@@ -156,7 +156,7 @@ TEST(ReferenceMicrofacet, splitSumsAreThoseOfTheTable) {
         };
         a = sum(1.0, 0.0);
         b = sum(0.0, 1.0);
-        EXPECT_NEAR(a, row.a, 3e-4) << row.mu << ' ' << row.roughness; // the table's last digits and the rule's
+        EXPECT_NEAR(a, row.a, 3e-4) << row.mu << ' ' << row.roughness; // last digits of the table, and the rule's error
         EXPECT_NEAR(b, row.b, 3e-4) << row.mu << ' ' << row.roughness;
     }
 }

@@ -1,4 +1,4 @@
-// Normals that turn away from the viewer: the bend itself, and where it is made.
+// Normals that face away from the viewer: their correction, and the hits that it applies to.
 #include "validation/reference/NormalAt.h"
 
 #include <cmath>
@@ -26,8 +26,8 @@ TEST(ReferenceNormal, thatFacesTheViewerEnoughKeepsEveryBit) {
     }
 }
 
-/// In the plane of both no turn to the same cosine is shorter. By the tangent of the angle from the horizon: the part
-/// across the viewer's direction stays as it is.
+/// A rotation in the plane of both is the shortest to its cosine. The component across the viewer's direction is kept
+/// and the one along it raised to `least`, so the cosine is least / hypot(sine, least).
 TEST(ReferenceNormal, thatTurnsAwayIsTurnedInThePlaneOfBothUntilItFacesTheViewer) {
     test::Random random(12);
     for (int i = 0; i < 10000; ++i) {
@@ -51,7 +51,7 @@ TEST(ReferenceNormal, isBentWithoutAStep) {
         return bentToViewer({std::sqrt(1.0 - cosine * cosine), 0.0, cosine}, toViewer, kLeastFacing);
     };
     EXPECT_LT(glm::distance(at(kLeastFacing - 1e-9), at(kLeastFacing + 1e-9)), 3e-9);
-    // Across the side of the viewer: all around it normals end on the viewer's own direction.
+    // Opposite to the viewer: all normals around end at the viewer's direction.
     EXPECT_LT(glm::distance(at(-1.0), toViewer), 1e-12);
     EXPECT_LT(
         glm::distance(bentToViewer(glm::normalize(glm::dvec3(1e-6, 0.0, -1.0)), toViewer, kLeastFacing), toViewer),
@@ -61,7 +61,7 @@ TEST(ReferenceNormal, isBentWithoutAStep) {
         1e-4);
 }
 
-/// The tiny scene's triangle in z = 0, with a normal that leans away from it.
+/// The tiny scene's triangle in z = 0, with a normal that deviates from its own.
 class ReferenceNormalOfHit : public testing::Test {
 protected:
     ReferenceNormalOfHit() : scene_(scenes::tinyScene()) {
@@ -69,7 +69,7 @@ protected:
         seenFrom(1.0);
     }
 
-    /// The viewer's direction, with the cosine to the triangle's normal, in the plane y = 1.
+    /// Views the triangle at this cosine to its normal, in the plane y = 1.
     void seenFrom(double cosine) {
         const glm::dvec3 target(0.5, 1.0, 0.0);
         toViewer_ = {-std::sqrt(1.0 - cosine * cosine), 0.0, cosine};
@@ -80,7 +80,7 @@ protected:
 
     struct Normals {
         glm::dvec3 seen, unseen,
-            coat; ///< of the point that the middle of the picture shows; if nobody looked; its coat
+            coat; ///< at the centre of the image; without a viewer; of its coat
     };
     Normals normals() const {
         const CameraRays rays(scene_.cameras[0], {1, 1});
@@ -114,7 +114,7 @@ TEST_F(ReferenceNormalOfHit, isBentWhereSomebodyLooks) {
     EXPECT_LT(glm::distance(found.unseen, glm::dvec3(0.8, 0.0, -0.6)), kStoredNormal);
 }
 
-/// u runs along x and v against y, so that the texel's own axes are those of the world.
+/// u runs along x and v against y, so that the texel's axes are those of the world.
 TEST_F(ReferenceNormalOfHit, ofEachMapLeansByItsOwnScale) {
     const glm::vec3 texel(0.3f, -0.2f, 0.8f);
     scene_.meshes[0].texCoords[0] = {{0.0f, 0.0f}, {1.0f, 0.0f}, {0.0f, -1.0f}};
@@ -143,7 +143,7 @@ TEST_F(ReferenceNormalOfHit, ofEachMapLeansByItsOwnScale) {
 TEST_F(ReferenceNormalOfHit, isTurnedToTheSideThatIsSeenBefore) {
     scene_.materials[0].doubleSided = true;
     seenFrom(-1.0);
-    lean({0.8f, 0.0f, -0.6f}); // towards the viewer, so away once it is turned round
+    lean({0.8f, 0.0f, -0.6f}); // towards the viewer, so away once it is flipped
     const Normals found = normals();
     const glm::dvec3 expected = glm::normalize(glm::dvec3(-0.8, 0.0, -kLeastFacing));
     EXPECT_LT(glm::distance(found.seen, expected), kStoredNormal);

@@ -1,4 +1,4 @@
-// Shadows of the reference: shares of a sun's disk, the noise that a program's rays are granted, and masks of casters.
+// Shadows of the reference: fractions of a sun's disk, the tolerance for ray noise, and masks of casters.
 #include "validation/reference/Occlusion.h"
 
 #include <cmath>
@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kAngularRadius = 0.1;
 
-/// A floor of one triangle, since a second one might hide light from the edge between both, and 1 m above it a plate
-/// over x < `edge`.
+/// A floor and, 1 m above it, a plate over x < `edge`. The floor is one triangle, because a second one might block
+/// light at the edge between both.
 scenes::Scene floorUnderPlate(double edge) {
     scenes::Scene scene = test::quadScene({});
     scene.nodes.push_back(scene.nodes[0]);
@@ -28,7 +28,7 @@ scenes::Scene floorUnderPlate(double edge) {
     return scene;
 }
 
-/// Of the floor's middle, under a sun straight above.
+/// The shadow at the floor's centre, under a sun straight above.
 Occlusion::Answer shadowAtMiddle(double edge, int samples) {
     const scenes::Scene scene = floorUnderPlate(edge);
     const CameraRays rays(scene.cameras[0], {1, 1});
@@ -56,8 +56,8 @@ TEST(ReferenceOcclusion, aPlatesEdgeLeavesOfASunTheSegmentOfItsDisk) {
     }
 }
 
-/// The least count that fewer of `samples` rays reach in one case of 1 / `rarity`, each with this chance: by the
-/// binomial distribution's own sum.
+/// The least count whose cumulative probability is at least 1 / `rarity`, for `samples` rays that each hit with this
+/// chance: by summing the binomial distribution.
 int rareCount(int samples, double chance, double rarity) {
     double below = 0.0;
     for (int count = 0;; ++count) {
@@ -67,7 +67,7 @@ int rareCount(int samples, double chance, double rarity) {
     }
 }
 
-/// What one program in 10^5 shows is allowed, and what none in 10^15 does is not.
+/// A result with a probability of 1 in 10^5 is allowed, one with 1 in 10^15 is not.
 TEST(ReferenceOcclusion, theNoiseThatRaysAreGrantedIsThatOfTheBinomialDistribution) {
     for (const double place : {-0.6, -0.2, 0.4})
         for (const int samples : {256, 1024, 4096}) {
@@ -84,7 +84,7 @@ TEST(ReferenceOcclusion, theNoiseThatRaysAreGrantedIsThatOfTheBinomialDistributi
         }
 }
 
-/// Of the floor's middle, under a point of light or a sun that stands there; the plate reaches up to x = `edge`.
+/// Light at the floor's centre, from a point light or a sun; the plate extends to x = `edge`.
 struct Lit {
     double edge = -0.5;
     glm::dvec3 toLight{0.0, 0.0, 1.0};
@@ -116,8 +116,8 @@ Occlusion::Answer shadowOf(const Lit& lit) {
         .of(sun, hit, surface, -glm::dvec3(scene.cameras[0].worldFromCamera[3]), {0.0, 0.0, 1.0}, {});
 }
 
-/// Positions within 3 m are rounded by up to 2e-7 m and added up a few times; the normal that a program lifts a point
-/// along has 24 bits, 1e-6 of a body's radius at least.
+/// Positions within 3 m are rounded by up to 2e-7 m and summed a few times. The normal along which a program lifts a
+/// point has 24 bits: at least 1e-6 of a body's radius.
 TEST(ReferenceOcclusion, edgesAreUndecidedAsFarAsRoundingMovesThemAndNoFarther) {
     for (const double side : {1.0, -1.0}) {
         EXPECT_TRUE(shadowOf({.edge = side * 2e-7}).isUndecided);
@@ -137,8 +137,8 @@ TEST(ReferenceOcclusion, masksAreUndecidedWithinAFewRoundingsOfTheirCutoff) {
     }
 }
 
-/// Octahedral coordinates of 12 bits turn a triangle's normal by up to 1e-3, and light that comes in less steeply may
-/// be hidden.
+/// Octahedral coordinates of 12 bits rotate a triangle's normal by up to 1e-3, so light at a smaller angle to the
+/// triangle may be blocked.
 TEST(ReferenceOcclusion, lightAlongItsOwnTriangleIsUndecidedAsFarAsTheStoredNormalTurns) {
     const auto isUndecided = [](double rise) { return shadowOf({.toLight = {1.0, 0.0, rise}}).isUndecided; };
     for (const double side : {1.0, -1.0}) {
@@ -147,8 +147,8 @@ TEST(ReferenceOcclusion, lightAlongItsOwnTriangleIsUndecidedAsFarAsTheStoredNorm
     }
 }
 
-/// Half of a sun on the horizon is hidden; where that is cut may move by the turn of the normal, which is much of a
-/// small sun and less than a hundredth of a large one.
+/// A sun on the horizon is half hidden. The normal's rotation moves the cut, by much of a small sun and by less than a
+/// hundredth of a large one.
 TEST(ReferenceOcclusion, whatRoundingTakesOfALightDecidesFromAHundredthOn) {
     const auto ofSun = [](double radians) { return shadowOf({.toLight = {1.0, 0.0, 0.0}, .sunRadians = radians}); };
     EXPECT_TRUE(ofSun(0.02).isUndecided);
@@ -156,8 +156,8 @@ TEST(ReferenceOcclusion, whatRoundingTakesOfALightDecidesFromAHundredthOn) {
     EXPECT_NEAR(ofSun(0.02).share, 0.5, 0.02);
 }
 
-/// A picture's first line is at the top of a quad, its first column at the left (tests/support/TestScenes.h). The
-/// opaque texels make a pattern that no turn and no mirror image leaves as it is.
+/// An image's first row is at the top of a quad, its first column at the left (tests/support/TestScenes.h). The pattern
+/// of opaque texels has no rotational and no mirror symmetry.
 TEST(ReferenceOcclusion, aMaskHidesLightWhereItsTextureStandsUpright) {
     constexpr int kSide = 4;
     constexpr const char* kOpaque[kSide] = {"##..", //

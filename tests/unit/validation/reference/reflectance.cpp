@@ -33,7 +33,7 @@ Material randomMaterial(MaterialModel model, test::Random& random) {
     return material;
 }
 
-/// At right angles to the normal.
+/// A direction at right angles to the normal.
 glm::dvec3 tangentOf(const glm::dvec3& normal) {
     return glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
 }
@@ -71,7 +71,7 @@ TEST(ReferenceReflectance, everyModelIsTheTextbooks) {
         for (int i = 0; i < 20000; ++i) {
             const Material material = randomMaterial(model, random);
             const glm::dvec3 n = random.direction(), l = random.direction(), v = random.direction();
-            // The textbook's Fresnel factor takes no cosine beyond 1, which rounding gives where l = v.
+            // The textbook's Fresnel factor refuses cosines beyond 1, which rounding gives where l = v.
             if (glm::dot(l, v) > 1.0 - 1e-9) continue;
             const glm::dvec3 wanted = test::textbook::reflected(material, n, l, v, tangentOf(n));
             const glm::dvec3 found = reflected(pointOf(material, n), l, v, true);
@@ -124,14 +124,14 @@ TEST(ReferenceReflectance, aSheenEqualsTheTextbooksAndDarkensTheBaseNearlyAsMuch
         const glm::dvec3 below = test::textbook::reflected(bare, n, l, v, tangentOf(n));
         const glm::dvec3 wanted = test::textbook::reflected(material, n, l, v, tangentOf(n));
         const glm::dvec3 found = reflected(point, l, v, true);
-        // What lies below is scaled by a fit in place of the integral, off by up to 0.035.
+        // The layers below are scaled by a fit instead of the integral, off by up to 0.035.
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(found[c], wanted[c], 1e-8 * wanted[c] + 1e-12 + (black ? 0.0 : 0.04 * below[c])) << i;
     }
 }
 
-/// Whatever comes out below a coat, it lets 1 - coat (0.04 + 0.96 (1 - n.v)^5) of it pass: light of a body from behind,
-/// light that has spread, and what the surface emits.
+/// A coat transmits 1 - coat (0.04 + 0.96 (1 - n.v)^5) of all light from below: light through a body from behind,
+/// diffused light and emission.
 TEST(ReferenceReflectance, aCoatDimsAllThatLeavesBelowIt) {
     constexpr double kCoat = 0.7, kCosine = 0.3;
     const glm::dvec3 n(0.0, 0.0, 1.0), v(std::sqrt(1.0 - kCosine * kCosine), 0.0, kCosine), behind(0.6, 0.0, -0.8);
@@ -170,14 +170,14 @@ TEST(ReferenceReflectance, wrappedLightIsTheTextbooks) {
             point.wrap = double(material.subsurface.wrap) * glm::dvec3(material.subsurface.wrapTint);
             const glm::dvec3 wanted = test::textbook::reflected(material, n, l, v, tangentOf(n));
             const glm::dvec3 found = reflected(point, l, v, true);
-            // The highlight is what the lobe adds to the rest: a difference.
+            // The highlight is the difference of the lobe and the rest, so rounding scales with the brightest channel.
             const double brightest = std::max({wanted.r, wanted.g, wanted.b, 1e-6});
             for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], wanted[c], 1e-9 * brightest) << int(model) << ' ' << i;
         }
     }
 }
 
-// What is stated of its energy (docs/skin.md).
+// The energy that docs/skin.md states.
 TEST(ReferenceReflectance, wrappedLightGivesOneAndItsWrapTimesTheLightOfACosine) {
     SurfacePoint point;
     point.color = glm::dvec3(1.0);
@@ -185,7 +185,7 @@ TEST(ReferenceReflectance, wrappedLightGivesOneAndItsWrapTimesTheLightOfACosine)
     point.wrap = {0.0, 0.3, 1.0};
     glm::dvec3 sum(0.0);
     constexpr int kSteps = 20000;
-    for (int i = 0; i < kSteps; ++i) { // even in the cosine, and so over the sphere
+    for (int i = 0; i < kSteps; ++i) { // uniform in the cosine, and so over the sphere
         const double cosine = 2.0 * (i + 0.5) / kSteps - 1.0;
         const glm::dvec3 toLight(std::sqrt(1.0 - cosine * cosine), 0.0, cosine);
         sum += reflected(point, toLight, point.normal, true) * (4.0 * std::numbers::pi / kSteps);
@@ -244,7 +244,7 @@ TEST(ReferenceReflectance, aMirrorReflectsAllThatItsLobeWouldAndWhatLiesAboveTak
                 sum += (reflected(point, l, toViewer, true) - reflected(rest, l, toViewer, true)) /
                        (lobe.density(l) * kSide * kSide);
             }
-            // A lobe of alpha 0.001 sees other angles by as much.
+            // A lobe of alpha 0.001 covers angles that differ as much.
             for (int c = 0; c < 3; ++c)
                 ASSERT_NEAR(sum[c], mirrors[0].share[c], 5e-3 * mirrors[0].share[c] + 1e-9) << int(model) << ' ' << i;
         }
@@ -262,7 +262,7 @@ TEST(ReferenceReflectance, onlyGgxLobesOfTheLeastAlphaAreMirrors) {
         EXPECT_EQ(reflected(withoutMirrors(point), toViewer, toViewer, true),
                   reflected(point, toViewer, toViewer, true))
             << int(model);
-        // A coat is one of its own.
+        // A coat is a mirror by itself.
         point.coat = 0.5;
         point.coatAlpha = kSmallestAlpha;
         point.coatNormal = n;
@@ -360,7 +360,7 @@ TEST(ReferenceReflectance, colorsAreBentByTheirOwnIndicesOfRefraction) {
     }
 }
 
-/// What a mirror reflects and what shows through are all of even light.
+/// Under uniform illumination, reflected and transmitted light are all of it.
 TEST(ReferenceReflectance, clearGlassLosesNoLight) {
     test::Random random(25);
     for (int i = 0; i < 2000; ++i) {
@@ -400,8 +400,8 @@ glm::dvec3 seenAt(double cosView) {
     return {std::sqrt(1.0 - cosView * cosView), 0.0, cosView};
 }
 
-/// A and B of the split sum by cosine and perceptual roughness, shading.md section 6: of even light a lobe reflects
-/// F0 A + F90 B.
+/// A and B of the split sum by cosine and perceptual roughness, shading.md section 6: under uniform illumination a lobe
+/// reflects F0 A + F90 B.
 TEST(ReferenceReflectance, roughGlassPassesWhatPublishedTablesLeave) {
     constexpr double kCosines[] = {0.1, 0.5, 1.0}, kRoughnesses[] = {0.25, 0.5, 0.75, 1.0};
     constexpr double kA[3][4] = {
@@ -410,17 +410,17 @@ TEST(ReferenceReflectance, roughGlassPassesWhatPublishedTablesLeave) {
     for (int c = 0; c < 3; ++c)
         for (int r = 0; r < 4; ++r) {
             const glm::dvec3 toViewer = seenAt(kCosines[c]);
-            // An index without bound reflects all at any angle, one of 1 nothing straight on.
+            // An infinite index reflects all light at any angle; an index of 1 reflects none at normal incidence.
             const double opaque = transmitted(roughGlass(kRoughnesses[r], 0.0), toViewer).r;
             const double bare = transmitted(roughGlass(kRoughnesses[r], 1.0), toViewer).r;
-            // The table is good to 2e-4, the integral to 2e-3 and of dielectrics to 2e-4 (EvenLight.h).
+            // Errors: 2e-4 of the table, 2e-3 of the integral and 2e-4 of that for dielectrics (EvenLight.h).
             EXPECT_NEAR(1.0 - opaque, kA[c][r] + kB[c][r], 2e-3) << kCosines[c] << ", " << kRoughnesses[r];
             EXPECT_NEAR(1.0 - bare, kB[c][r], 4e-4) << kCosines[c] << ", " << kRoughnesses[r];
         }
 }
 
-/// At grazing angles a lobe of two alphas reflects about as much as one of the alpha along the view: little where that
-/// is the larger.
+/// At grazing angles an anisotropic lobe reflects about as much as an isotropic one of the alpha along the view: little
+/// where that is the larger one.
 TEST(ReferenceReflectance, glassOfTwoAlphasPassesByTheDirectionItIsSeenFrom) {
     SurfacePoint glass = roughGlass(0.3, 1.5);
     const double narrow = transmitted(glass, seenAt(0.1)).r;

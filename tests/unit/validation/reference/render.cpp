@@ -37,7 +37,7 @@ TEST(ReferenceRender, theRoomIsItsClosedForm) {
                 if (!seen) continue;
                 const glm::dvec3 truth = room::roomRadiance(seen->positionWS, seen->normalWS, seen->material);
                 const glm::dvec3& found = rendered.radiance[std::size_t(row * rendered.width + column)];
-                // Positions and normals of the scene are single precision: 6e-8 of the turned box's, times its slope.
+                // Positions and normals of the scene are fp32: 6e-8 of those of the rotated box, times its slope.
                 for (int c = 0; c < 3; ++c) ASSERT_NEAR(found[c], truth[c], 1e-6 * truth[c]) << column << ',' << row;
                 ++compared;
             }
@@ -59,7 +59,7 @@ TEST(ReferenceRender, whereNothingIsDrawnThereIsExactlyTheBackground) {
     }
 }
 
-/// A red triangle and a blue one behind it, seen from the front.
+/// A red triangle and a blue one behind it, viewed from the front.
 Settings settingsOfTwoTriangles(scenes::Scene& scene, double eyeMetres, double gapMetres) {
     scene = scenes::tinyScene();
     scene.materials = {scene.materials.front(), scene.materials.front()};
@@ -122,14 +122,14 @@ TEST(ReferenceRender, trianglesAreInOnePlaceWhereRoundingsOfTheirNodesMayExchang
     EXPECT_TRUE(seen.others.front().isCoincident);
 }
 
-/// Roundings of the product's positions go with their distance from an origin that is its own business: the reference
-/// grants what lies between that and its own.
+/// Rounding of the product's positions grows with their distance from an origin that the product chooses. The reference
+/// tolerates the distance between that origin and its own.
 TEST(ReferenceRender, fromAFarEyeTheProductsOriginIsNotFartherFromTheReferencesThanIsGranted) {
     test::Random random(21);
     int far = 0;
     for (int i = 0; i < 2000; ++i) {
         scenes::Scene scene = scenes::tinyScene();      // 2 m by 4 m
-        scene.meshes[0].positionsOS.emplace_back(1e6f); // which no triangle has
+        scene.meshes[0].positionsOS.emplace_back(1e6f); // no triangle uses it
         scene.meshes[0].normalsOS.emplace_back(0.0f, 0.0f, 1.0f);
         Settings settings;
         settings.sizePixels = {64, 64};
@@ -145,7 +145,7 @@ TEST(ReferenceRender, fromAFarEyeTheProductsOriginIsNotFartherFromTheReferencesT
         const glm::dvec3 beside(random.between(-0.5, 0.5) * eyeMetres, random.between(-0.5, 0.5) * eyeMetres, 0.0);
         camera.worldFromCamera = scenes::worldFromLookAt({0.7, 1.3, eyeMetres}, glm::dvec3(0.7, 1.3, 0.0) + beside);
         const bool isCut = isParallel && i % 5 == 0;
-        if (isParallel) { // one more beside the picture
+        if (isParallel) { // one more beside the image
             scene.nodes.push_back(scene.nodes.front());
             scene.nodes.back().parentFromNode[3] =
                 glm::dvec4(5.0 * camera.halfHeightMetres * glm::dvec3(camera.worldFromCamera[0]), 1.0);
@@ -188,8 +188,8 @@ TEST(ReferenceRender, ofTrianglesInOnePlaceEitherIsAllowedAndNoMixOfThem) {
 
 // ---- Area lights ---------------------------------------------------------------------------------------------------
 
-/// A white triangle of Lambert's model under a sphere of 0.2 m, 2 m above (0.5, 1, 0), where the only pixel looks from
-/// the side.
+/// A white triangle of Lambert's model under a sphere of 0.2 m, 2 m above (0.5, 1, 0). The only pixel views that point
+/// from the side.
 Settings settingsUnderASphere(scenes::Scene& scene) {
     scene = scenes::tinyScene();
     scene.materials.front().model = scenes::MaterialModel::Lambert;
@@ -224,8 +224,8 @@ TEST(ReferenceRender, ofAFlatLightTheShareOfItsSurfaceThatIsInSightReachesAPoint
     light.heightMetres = 0.1f;
     light.radiusMetres = 0.1f;
     for (glm::vec2& corner : light.corners.metres) corner *= glm::vec2(0.4f, 0.1f);
-    // A triangle half way to the light hides what lies beyond a straight edge, in the light's plane 4 cm from its
-    // middle.
+    // A triangle halfway to the light hides the part beyond a straight edge, which in the light's plane is 4 cm from
+    // its centre.
     scenes::Mesh& mesh = scene.meshes.emplace_back(scene.meshes.front());
     const double t = 0.4;
     const double ofDisk = (std::acos(t) - t * std::sqrt(1.0 - t * t)) / std::numbers::pi, ofRectangle = 0.16 / 0.4;
@@ -241,7 +241,7 @@ TEST(ReferenceRender, ofAFlatLightTheShareOfItsSurfaceThatIsInSightReachesAPoint
         mesh.positionsOS = {{0.52f, -50.0f, 1.0f}, {50.0f, 1.0f, 1.0f}, {0.52f, 50.0f, 1.0f}};
         scene.nodes.front().instances.push_back({1, 0});
         const Rendered part = render(scene, settings);
-        // Rays of 64 rings, as far apart as a hundredth of the surface along the edge.
+        // Rays of 64 rings, a hundredth of the surface apart along the edge.
         EXPECT_NEAR(part.radiance[0].g, (1.0 - hidden) * whole, 2e-3 * whole);
         EXPECT_EQ(part.areaLights[0].light, part.radiance[0]);
         mesh.positionsOS[0].x = mesh.positionsOS[2].x = 0.39f;

@@ -1,4 +1,4 @@
-// The reference's integral over a sphere against the closed form of the roughest lobe.
+// The reference's integral over a sphere, compared with the closed form of the roughest lobe.
 #include "tests/support/RoughestLobe.h"
 
 #include <cmath>

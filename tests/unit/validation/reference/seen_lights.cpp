@@ -1,4 +1,4 @@
-// Where rays meet the surfaces of lights, against steps along the ray by the distance to the surface.
+// Intersections of rays with the surfaces of lights, compared with sphere tracing.
 #include "validation/reference/SeenLights.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ ShiningLight lamp(LightType type) {
     return shining;
 }
 
-/// From a place to the nearest of the surface; of solids below 0 inside.
+/// Distance from a point to the surface; negative inside solids.
 double distanceTo(const ShiningLight& shining, const glm::dvec3& placeRWS) {
     const scenes::Light& light = shining.light;
     const glm::dvec3 place = placeRWS - shining.positionRWS;
@@ -72,7 +72,7 @@ double distanceTo(const ShiningLight& shining, const glm::dvec3& placeRWS) {
 
 constexpr double kNear = 1e-9, kFarMetres = 100.0;
 
-/// The depth at which a ray meets the surface, -1 where it passes by, and nothing where it grazes it.
+/// The depth at which a ray meets the surface, by sphere tracing; -1 where it misses, nothing where it grazes.
 std::optional<double> steppedTo(const ShiningLight& light, const Ray& ray) {
     const double length = glm::length(ray.direction);
     double depth = 0.0;
@@ -103,7 +103,7 @@ TEST(ReferenceSeenLights, raysMeetSurfacesWhereStepsAlongThemEnd) {
         for (float scenes::Light::*metres : {&scenes::Light::widthMetres, &scenes::Light::heightMetres,
                                              &scenes::Light::lengthMetres, &scenes::Light::radiusMetres})
             light.light.*metres = float(random.logarithmic(0.1, 3.0));
-        light.light.corners.metres[2] = {-0.2f, 0.0f}; // points inwards
+        light.light.corners.metres[2] = {-0.2f, 0.0f}; // a reflex corner
         for (glm::vec2& corner : light.light.corners.metres)
             corner *= glm::vec2(light.light.widthMetres, light.light.heightMetres);
         light.positionRWS = glm::dmat3(camera.worldFromCamera) *
@@ -123,12 +123,12 @@ TEST(ReferenceSeenLights, raysMeetSurfacesWhereStepsAlongThemEnd) {
         }
         ++met;
         ++metOf[std::size_t(i / 2 % 5)];
-        // Where the ray comes flat, the last step ends farther before the surface.
+        // At grazing rays the last step ends farther before the surface.
         EXPECT_NEAR(found->depthMetres, *wanted, 1e-4) << scenes::infoOf(light.light.type).name << " " << i;
         EXPECT_NEAR(distanceTo(light, ray.at(found->depthMetres)), 0.0, 1e-11);
     }
-    // Of a thousand rays at each type 185 meet a sphere, 155 a tube, 95 a disk, 20 a rectangle and 7 a polygon, which
-    // has two fifths of its rectangle: by the mean areas that shapes of such sizes show.
+    // Of a thousand rays per type 185 meet a sphere, 155 a tube, 95 a disk, 20 a rectangle and 7 a polygon, which has
+    // two fifths of its rectangle: estimated from the mean projected areas of such sizes.
     EXPECT_GT(met, 2000);
     EXPECT_GT(missed, 2000);
     for (std::size_t i = 0; i < metOf.size(); ++i) EXPECT_GT(metOf[i], 15) << scenes::infoOf(kAreaTypes[i]).name;
@@ -187,7 +187,7 @@ TEST_F(ReferenceLightInView, theNearestIsMetAndOfSeveralInOnePlaceTheLast) {
     EXPECT_EQ(met(lights)->light, 1u);
 }
 
-/// A white triangle in z = 0 that a pixel sees, and a light before it.
+/// A white triangle in z = 0 that is visible to a pixel, and a light before it.
 class ReferencePictureOfALight : public testing::Test {
 protected:
     ReferencePictureOfALight() {
@@ -200,7 +200,7 @@ protected:
         settings_.sizePixels = {1, 1};
         settings_.camera.worldFromCamera = scenes::worldFromLookAt({0.5, 1.0, 5.0}, {0.5, 1.0, 0.0});
     }
-    /// Half of what is behind it shows through the triangle.
+    /// Makes the triangle half transparent.
     void makeTransparent() {
         scene_.materials[0].alphaMode = scenes::AlphaMode::Blend;
         scene_.materials[0].baseColor.a = 0.5f;
@@ -249,7 +249,7 @@ TEST_F(ReferencePictureOfALight, whereRoundingDecidesBothAreAllowed) {
     light.positionWS.x = 0.0;
     EXPECT_TRUE(allows(glm::dvec3(4.0)));
     EXPECT_TRUE(allows(glm::dvec3(1.0)));
-    // In the surface's own plane.
+    // In the plane of the surface.
     light.positionWS = {0.5, 1.0, 0.0};
     EXPECT_TRUE(allows(glm::dvec3(4.0)));
     EXPECT_TRUE(allows(glm::dvec3(1.0)));
@@ -260,7 +260,7 @@ TEST_F(ReferencePictureOfALight, whereRoundingDecidesBothAreAllowed) {
     EXPECT_TRUE(render(scene_, settings_).alternatives[0].empty());
 }
 
-/// A tenth of a pixel beside the outline, and a millimetre before a surface 5 m away, nothing is left open.
+/// A tenth of a pixel beside the outline, or a millimetre before a surface 5 m away, only one value is allowed.
 TEST_F(ReferencePictureOfALight, whereRoundingDoesNotDecideOneAloneIsAllowed) {
     scenes::Light& light = scene_.lights[0];
     light.type = LightType::Rectangle;

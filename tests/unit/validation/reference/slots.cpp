@@ -1,4 +1,4 @@
-// Where rounding decides which texel a surface shows.
+// Points where rounding decides which texel a surface shows.
 #include "validation/reference/Slots.h"
 
 #include <optional>
@@ -13,7 +13,7 @@ namespace tessera::reference {
 namespace {
 
 constexpr int kSide = 8;
-constexpr double kRounding = 0x1p-24; ///< to single precision, of a coordinate from 0.5 to 1
+constexpr double kRounding = 0x1p-24; ///< of a coordinate from 0.5 to 1 to single precision
 
 class ReferenceSlots : public testing::Test {
 protected:
@@ -28,7 +28,7 @@ protected:
         objects_.emplace(scene_, CameraRays(scene_.cameras[0], {1, 1}));
         hit_.object = &objects_->opaque()[0];
     }
-    /// Of a point whose coordinate u lies so far beyond the edge of the texel at 3/4, while v is in a texel's middle.
+    /// Tests a point with u at `texCoord` beyond the texel edge at 3/4, and v at a texel's centre.
     bool isUndecidedBeyondEdge(double texCoord) {
         // Corners 0, 1 and 2 of the quad have the coordinates (0, 1), (1, 1) and (1, 0).
         const double u = 0.75 + texCoord, v = 0.5625;
@@ -49,10 +49,10 @@ TEST_F(ReferenceSlots, edgesOfTexelsAreUndecidedWithinAFewRoundingsOfTheCoordina
     }
 }
 
-/// A point that rounding moves over the picture takes other coordinates: of a texture that 100 pixels show whole, by a
-/// hundredth for each pixel.
+/// Rounding that moves a point over the image changes its coordinates: by a hundredth per pixel for a texture that
+/// spans 100 pixels.
 TEST_F(ReferenceSlots, edgesOfTexelsAreUndecidedAsFarAsAPointIsMovedOverThePicture) {
-    hit_.weightsDx = glm::dvec3(-0.01, 0.01, 0.0); // u by 0.01, v by nothing
+    hit_.weightsDx = glm::dvec3(-0.01, 0.01, 0.0); // u by 0.01, v by 0
     hit_.roundingPixels = 0.02;
     EXPECT_TRUE(isUndecidedBeyondEdge(1.9e-4));
     EXPECT_FALSE(isUndecidedBeyondEdge(2.1e-4));
@@ -74,18 +74,18 @@ TEST_F(ReferenceSlots, aPointIsMovedOverThePictureByAFewRoundingsOfItsPosition) 
     EXPECT_LT(hit->roundingPixels, 64.0 * kRounding / metresAPixel);
     EXPECT_GT(hit->roundingMetres, 1.0 * kRounding);
     EXPECT_LT(hit->roundingMetres, 64.0 * kRounding);
-    // By how much that stretches a triangle of 1.4 m, in powers of two.
+    // The relative stretch of a triangle of 1.4 m, in powers of two.
     EXPECT_GT(hit->roundingLevels, 1.0 * kRounding);
     EXPECT_LT(hit->roundingLevels, 64.0 * kRounding);
 }
 
-/// Hardware has eight bits of a weight between texels and of a texel, and may take a level of detail for its neighbour
-/// as far as drivers stray that are known: not by half a level.
+/// Hardware has eight bits for weights between texels and for texels. Its level of detail may differ as far as that of
+/// known drivers does: by less than half a level.
 TEST_F(ReferenceSlots, whatHardwareIsGrantedIsABitOfAWeightAndOfATexelAndLessThanHalfALevel) {
     const scenes::TextureUse& use = scene_.materials[0].texture(scenes::TextureSlot::BaseColor);
     const Textures textures(scene_, Filtering::Hardware);
     const Pyramid& pyramid = textures.pyramid(0, Transfer::Srgb);
-    // One texel a pixel.
+    // One texel per pixel.
     const Footprint footprint{glm::dvec2(0.5), glm::dvec2(1.0 / kSide, 0.0), glm::dvec2(0.0, 1.0 / kSide)};
     const Leeway leeway = leewayOf(Filtering::Hardware, use, footprint, pyramid, hit_);
     for (int axis = 0; axis < 2; ++axis) {

@@ -1,4 +1,4 @@
-// Means of an environment around a direction, as bodies of glass show them.
+// Means of an environment around a direction, as visible through bodies of glass.
 #include "validation/reference/Surroundings.h"
 
 #include <cmath>
@@ -22,9 +22,9 @@ scenes::Scene underASlope(double slope) {
     return scene;
 }
 
-/// The mean cosine to the axis of light that facets refract which lean by GGX, seen straight on: over the angle by
-/// which they lean, by the midpoint rule. Walter et al. 2007, equation 41 without what masks the viewer's ray, by half
-/// vectors.
+/// Mean cosine to the axis of light refracted by GGX microfacets for a viewer along the axis, integrated over their
+/// tilt by the midpoint rule. Source: Walter et al. 2007, equation 41 by half vectors, without masking of the viewer's
+/// ray.
 double meanCosine(double alpha, double ior) {
     constexpr int kSteps = 20000;
     double weights = 0.0, sum = 0.0;
@@ -34,12 +34,12 @@ double meanCosine(double alpha, double ior) {
         if (sine >= 1.0) break;
         const double turned = lean - std::asin(sine), spread = cosine * cosine * (alpha * alpha - 1.0) + 1.0;
         if (turned >= 0.5 * std::numbers::pi) break;
-        // By amplitudes at the angles to the facet, sin(a - b) / sin(a + b) and tan(a - b) / tan(a + b).
+        // Fresnel amplitudes of the angles to the microfacet: sin(a - b) / sin(a + b) and tan(a - b) / tan(a + b).
         const double crossed = std::sin(turned) / std::sin(lean + std::asin(sine));
         const double along = std::tan(turned) / std::tan(lean + std::asin(sine));
         const double passed = ior > 0.0 ? 1.0 - 0.5 * (crossed * crossed + along * along) : 1.0;
         const double masked = 2.0 / (1.0 + std::hypot(1.0, alpha * std::tan(turned)));
-        // D (h.n) over the viewer's cosine to the facet.
+        // D (h.n) over the viewer's cosine to the microfacet.
         const double weight = cosine * std::sin(lean) / (spread * spread) * masked * passed;
         weights += weight;
         sum += weight * std::cos(turned);
@@ -68,8 +68,8 @@ TEST(ReferenceSurroundings, throughFacetsShowsTheMeanOfTheirLobe) {
     EXPECT_EQ(surroundings.through({&clear, 1}, 0, isHidden), surroundings.radianceOf(clear.direction));
 }
 
-/// Of even light a white matte surface reflects pi times its radiance (its model has no 1/pi), of which occlusion
-/// leaves the share that its texture says.
+/// Under uniform illumination a white matte surface reflects pi times its radiance (its model has no 1/pi), scaled by
+/// the occlusion texture.
 TEST(ReferenceSurroundings, occlusionLeavesItsShareOfTheirLight) {
     const scenes::Scene scene = underASlope(0.0);
     Settings settings;

@@ -14,7 +14,7 @@ namespace {
 using scenes::TangentMethod;
 using test::quad;
 
-/// With a normal map in the first set of texture coordinates.
+/// A material with a normal map in the first set of texture coordinates.
 scenes::Material mapped(TangentMethod method = TangentMethod::MikkTSpace,
                         const scenes::TextureTransform& transform = {}) {
     scenes::Material material;
@@ -34,7 +34,7 @@ TEST(ReferenceTangents, aQuadHasTheTangentThatIsFoundByHand) {
     }
 }
 
-/// The figures have seven decimals; single precision in that program is off by 2e-6 from the formulas.
+/// The reference values have seven decimals; single precision in that program is off by 2e-6 from the formulas.
 TEST(ReferenceTangents, theyAreThoseOfAnOutsideProgramWithMikkTSpace) {
     for (const bool isIndexed : {true, false}) {
         for (const test::MikkTSpaceTruth& truth : test::mikkTSpaceTruth(isIndexed)) {
@@ -59,7 +59,7 @@ TEST(ReferenceTangents, aMeshesOwnAreTurnedAndMirroredAsTheTextureIs) {
     expectAll({1, 1}, 90.0f, {0, -1, 0, 1});
     expectAll({1, -1}, 90.0f, {0, 1, 0, -1});
     mesh.tangentsOS.clear();
-    expectAll({1, -1}, 90.0f, {0, 1, 0, -1}); // and so are derived ones
+    expectAll({1, -1}, 90.0f, {0, 1, 0, -1}); // same for derived tangents
 }
 
 TEST(ReferenceTangents, coordinatesWithoutAreaGiveAUnitFrameAcrossTheNormal) {
@@ -70,7 +70,7 @@ TEST(ReferenceTangents, coordinatesWithoutAreaGiveAUnitFrameAcrossTheNormal) {
             mesh.texCoords[0] = uv;
             for (const TangentMethod method : {TangentMethod::MikkTSpace, TangentMethod::Lengyel}) {
                 for (const glm::dvec4& tangent : tangentsOS(mesh, mapped(method))) {
-                    EXPECT_NEAR(glm::length(glm::dvec3(tangent)), 1.0, 1e-7); // the float normal's own length
+                    EXPECT_NEAR(glm::length(glm::dvec3(tangent)), 1.0, 1e-7); // length of the float normal
                     EXPECT_NEAR(glm::dot(glm::dvec3(tangent), glm::dvec3(normal)), 0.0, 1e-7);
                 }
             }
@@ -88,7 +88,7 @@ double worstDistance(const scenes::Mesh& mesh, const scenes::Material& material)
     return worst;
 }
 
-/// Two programs of one definition, written apart.
+/// Two independent implementations of one definition.
 TEST(ReferenceTangents, onBuiltinScenesTheyAreTheProducts) {
     std::size_t compared = 0;
     for (const char* name : {"hall", "head"}) {

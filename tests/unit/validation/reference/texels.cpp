@@ -13,7 +13,7 @@ using scenes::TexelFormat;
 using scenes::TextureSlot;
 using scenes::Wrap;
 
-/// Two by two texels: red tells the column, green the row.
+/// Two by two texels: red is the column, green the row.
 Image fourTexels() {
     Image image;
     image.width = image.height = 2;

@@ -11,14 +11,14 @@ namespace {
 
 using scenes::AlphaMode;
 
-/// The tiny scene's triangle (0,0), (2,0), (0,4) of z = 0 seen from the front at 5 m.
+/// The tiny scene's triangle (0,0), (2,0), (0,4) of z = 0, viewed from the front at 5 m.
 class ReferenceVisibility : public testing::Test {
 protected:
     ReferenceVisibility() : scene_(scenes::tinyScene()) {
         camera_.worldFromCamera = scenes::worldFromLookAt({0.5, 1.0, 5.0}, {0.5, 1.0, 0.0});
     }
 
-    /// A second node with the triangle, moved along z; transparent ones get a material of their own.
+    /// Adds a second node with the triangle, moved along z; a transparent one gets its own material.
     void addTriangle(double z, AlphaMode mode = AlphaMode::Opaque) {
         scene_.nodes.push_back(scene_.nodes.front());
         scene_.nodes.back().parentFromNode[3].z = z;
@@ -28,7 +28,7 @@ protected:
         scene_.nodes.back().instances.front().material = int(scene_.materials.size()) - 1;
     }
 
-    /// Through the middle of the picture, which shows the point (0.5, 1, 0).
+    /// The hit at the image's centre, which shows the point (0.5, 1, 0).
     std::optional<Hit> middle() const { return at(0, 0); }
     std::optional<Hit> at(int column, int row, glm::ivec2 size = {1, 1}) const {
         const CameraRays rays(camera_, size);
@@ -36,7 +36,7 @@ protected:
         const Textures textures(scene_, Filtering::Exact);
         return copied(Visibility(objects, rays, textures).nearestOpaque(rays.through(column, row)));
     }
-    /// The object's number instead of the object, which does not outlive the call.
+    /// Stores the object's number instead of the object, which does not outlive the call.
     std::optional<Hit> copied(std::optional<Hit> hit) const {
         number_ = hit ? int(hit->object->number) : -1;
         if (hit) hit->object = nullptr;
@@ -48,7 +48,7 @@ protected:
     mutable int number_ = -1;
 };
 
-/// Scales of nested nodes multiply: the square of a side times a distance is no number any more.
+/// Scales of nested nodes multiply: the square of a side times a distance overflows.
 TEST_F(ReferenceVisibility, aTriangleTooLargeForNumbersIsNotHit) {
     for (int axis = 0; axis < 3; ++axis) scene_.nodes.front().parentFromNode[axis] *= 1e150;
     scene_.nodes.front().parentFromNode[3].z = -1e150;
@@ -95,14 +95,14 @@ TEST_F(ReferenceVisibility, theBackOfASingleSidedSurfaceIsNotSeen) {
 }
 
 TEST_F(ReferenceVisibility, aMirroringTransformNeverTurnsAFrontIntoABack) {
-    scene_.nodes[0].parentFromNode[2].z = -1.0; // z turned over: the triangle stays in z = 0 and faces -z
+    scene_.nodes[0].parentFromNode[2].z = -1.0; // z is mirrored: the triangle stays in z = 0 and faces -z
     EXPECT_FALSE(middle());
     camera_.worldFromCamera = scenes::worldFromLookAt({0.5, 1.0, -5.0}, {0.5, 1.0, 0.0});
     ASSERT_TRUE(middle());
     EXPECT_TRUE(middle()->frontFacing);
 }
 
-/// Against differences of the weights two pixels apart; a picture of 2000 rows leaves them an error of 1e-6.
+/// Compared with differences of the weights two pixels apart, which err by 1e-6 in an image of 2000 rows.
 TEST_F(ReferenceVisibility, changesToTheNextPixelsAreDerivativesOfTheWeights) {
     camera_.worldFromCamera = scenes::worldFromLookAt({3.0, -1.0, 4.0}, {0.5, 1.0, 0.0});
     for (const auto projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic}) {
