@@ -354,7 +354,7 @@ private:
         }
         if (!requests.copyInspection) return;
         window_.setClipboard(fmt::format("{}", fmt::join(lines, "\n")));
-        state_.notice = {"Copied what is told of pixel " + lines.front(), false};
+        state_.notice = {"Copied the values of pixel " + lines.front(), false};
     }
 
     /// Advances animations and damped movements.

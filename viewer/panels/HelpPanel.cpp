@@ -31,7 +31,7 @@ std::vector<HelpGroup> helpGroups() {
 void helpTable(const HelpGroup& group) {
     ImGui::TextDisabled("%s", group.heading);
     if (!ImGui::BeginTable(group.heading, 2)) return;
-    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 11.0f * ImGui::GetFontSize());
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 9.5f * ImGui::GetFontSize());
     ImGui::TableSetupColumn("meaning", ImGuiTableColumnFlags_WidthStretch);
     for (const HelpRow& row : group.rows) {
         ImGui::TableNextRow();
@@ -49,7 +49,7 @@ void helpTable(const HelpGroup& group) {
 } // namespace
 
 void helpOverlay(State& state, float scale) {
-    constexpr float kColumnWidth = 420.0f;
+    constexpr float kColumnWidth = 390.0f;
     constexpr int kMostColumns = 3;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});

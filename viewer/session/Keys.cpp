@@ -65,7 +65,7 @@ constexpr int kControl = GLFW_MOD_CONTROL;
 constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_F1, kNone, "F1 or H", "this help", [](State& s) { s.showsHelp = !s.showsHelp; }, "Window"},
     {GLFW_KEY_H, kNone, "", "", [](State& s) { s.showsHelp = !s.showsHelp; }},
-    {GLFW_KEY_ESCAPE, kNone, "Esc", "close the help, cancel what takes long, or close the latest message or resource",
+    {GLFW_KEY_ESCAPE, kNone, "Esc", "close the help, cancel long work, or close the latest message or resource",
      [](State& s) {
          if (!s.showsHelp && s.isCancellable) {
              s.requests.cancel = true;
@@ -77,7 +77,7 @@ constexpr KeyBinding kBindings[] = {
          }
          s.showsHelp = false;
      }},
-    {GLFW_KEY_ENTER, kNone, "Enter", "draw on after Esc", [](State& s) { s.requests.resume = true; }},
+    {GLFW_KEY_ENTER, kNone, "Enter", "resume drawing after Esc", [](State& s) { s.requests.resume = true; }},
     {GLFW_KEY_TAB, kNone, "Tab", "hide or show the panels", [](State& s) { s.showsPanel = !s.showsPanel; }},
     {GLFW_KEY_TAB, kShift, "Shift+Tab", "fold all panels", [](State& s) { s.foldsPanels = true; }},
     {GLFW_KEY_Q, kControl, "Ctrl+Q", "quit", [](State& s) { s.requests.quit = true; }},
@@ -98,22 +98,21 @@ constexpr KeyBinding kBindings[] = {
     {GLFW_KEY_LEFT_BRACKET, kNone, "[ and ]", "exposure down and up by half a step",
      [](State& s) { changeExposure(s, -kExposureStepEV); }},
     {GLFW_KEY_RIGHT_BRACKET, kNone, "", "", [](State& s) { changeExposure(s, kExposureStepEV); }},
-    {GLFW_KEY_I, kNone, "I", "inspect pixels: what the one under the pointer holds, enlarged",
+    {GLFW_KEY_I, kNone, "I", "inspect pixels: values below the pointer, enlarged",
      [](State& s) {
          s.inspects = !s.inspects;
          s.pinnedPlace.reset();
      }},
-    {GLFW_KEY_P, kNone, "P", "pin what is told of the inspected pixel",
+    {GLFW_KEY_P, kNone, "P", "pin the values of the inspected pixel",
      [](State& s) { s.requests.pinInspection = s.inspects; }},
-    {GLFW_KEY_C, kControl | kShift, "Ctrl+Shift+C", "copy what is told of the inspected pixel",
+    {GLFW_KEY_C, kControl | kShift, "Ctrl+Shift+C", "copy the values of the inspected pixel",
      [](State& s) { s.requests.copyInspection = s.inspects; }},
     {GLFW_KEY_0, kControl, "Ctrl+0", "show all of the picture again, after Ctrl + wheel",
      [](State& s) { s.magnification = {}; }},
-    {GLFW_KEY_SPACE, kNone, "Space", "play or pause what moves", togglePlaying},
+    {GLFW_KEY_SPACE, kNone, "Space", "play or pause the animation", togglePlaying},
     {GLFW_KEY_F5, kNone, "F5", "read the shaders again", [](State& s) { s.requests.reloadShaders = true; }},
     {GLFW_KEY_C, kNone, "C", "camera: orbit or fly", changeMode, "Camera"},
-    {GLFW_KEY_F, kNone, "F", "what is selected in view: the light, or all that has the material; else all of the scene",
-     frameSelection},
+    {GLFW_KEY_F, kNone, "F", "frame the selected light or material, else the whole scene", frameSelection},
     {GLFW_KEY_F, kShift, "Shift+F", "all of the scene in view",
      [](State& s) {
          if (s.open) s.open->jumpToAll(s.pictureAspect);

@@ -134,7 +134,7 @@ TEST_F(BenchSlow, shadowFiltersAreMeasuredAgainstTracedShadows) {
 TEST_F(Bench, methodsOfSubsurfaceScatteringAreMeasuredAgainstTheSurfaceIntegral) {
     folder_.write("m.json", R"({"technique": ["forward"], "diffusionTexels": [64, 256],
                                 "subsurface": ["none", "texture_space_diffusion"]})");
-    runGood({"bench", "diffusion_truth", "--size", "64x36", "--frames", "1", "--matrix", "m.json", "--against",
+    runGood({"bench", "diffusion_truth", "--size", "32x18", "--frames", "1", "--matrix", "m.json", "--against",
              "reference", "-o", "out"});
     const Json record = json("out/bench.json");
     ASSERT_EQ(record["points"].size(), 3u);
