@@ -40,7 +40,7 @@ protected:
         job_.start(name);
         EXPECT_EQ(job_.choice(), name);
         std::unique_lock lock(mutex_);
-        EXPECT_TRUE(changed_.wait_for(lock, std::chrono::minutes(1), [this] { return results_ > taken_; }));
+        EXPECT_TRUE(changed_.wait_for(lock, std::chrono::minutes(5), [this] { return results_ > taken_; }));
         ++taken_; // dropped results are not reported
         EXPECT_TRUE(job_.hasResult());
         std::optional<ChosenEnvironment> result = job_.take();

@@ -48,8 +48,9 @@ TEST(GltfSkins, theLastRowOfAnInverseBindMatrixIsNotRead) {
     for (std::size_t i : {3u, 7u, 11u, 15u, 19u, 23u, 27u, 31u}) matrices[i] = 0.25f;
     matrices[16 + 12] = -1.0f;
     builder.json["skins"][0]["inverseBindMatrices"] = builder.add("MAT4", matrices);
-    expectPlace(drawnAt(builder.import(), 0.0)[1], {1.0, 0.0, 0.0});
-    for (const glm::dmat4& matrix : builder.import().rig.skins[0].jointFromBind)
+    const Scene scene = builder.import();
+    expectPlace(drawnAt(scene, 0.0)[1], {1.0, 0.0, 0.0});
+    for (const glm::dmat4& matrix : scene.rig.skins[0].jointFromBind)
         EXPECT_EQ(glm::transpose(matrix)[3], glm::dvec4(0.0, 0.0, 0.0, 1.0));
 }
 
