@@ -45,8 +45,8 @@ struct PictureSignature {
     std::size_t offset = 0;
 };
 
-/// An image format. OpenImageIO has many more readers, some of which crash on broken files or open files that are not
-/// images; these are never used.
+/// An image format. OpenImageIO has many more readers. Some of them crash on broken files or open files that are not
+/// images; those are never used.
 struct PictureFormat {
     std::string_view name;          ///< in messages, and OpenImageIO's
     PictureSignature signatures[2]; ///< either identifies the format; none: its extension does

@@ -1,4 +1,4 @@
-// Area lights: parity of techniques, and pruning without them.
+// Area lights: parity of techniques, pruning without them, and what compare judges.
 
 #include <gmock/gmock.h>
 
@@ -101,6 +101,22 @@ TEST_F(AreaLightsSlow, aThousandRectanglesTakeATenthOfTheTimeByTheirListsThatThe
     const double allMs = msOf(Technique::Forward, {kSmall, kSize});
     fmt::print("lamps: clustered_deferred {:.0f} ms, forward {:.0f} ms\n", listsMs, allMs);
     EXPECT_GE(allMs, 10.0 * listsMs);
+}
+
+/// An area light that is off, or excluded by soloLight, does not prevent judging.
+TEST(AreaLightsJudged, areThoseThatShine) {
+    scenes::Scene scene = quadScene(lambert());
+    scene.lights = {areaLight(LightType::Disk, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, 1.0f), scenes::Light()};
+    frame::FrameSettings settings;
+    const auto isJudged = [&] { return validation::referenceTolerance(scene, settings).relMse.has_value(); };
+    EXPECT_FALSE(isJudged());
+    settings.soloLight = 1;
+    EXPECT_TRUE(isJudged());
+    settings.soloLight = 0;
+    EXPECT_FALSE(isJudged());
+    settings.soloLight.reset();
+    scene.lights[0].enabled = false;
+    EXPECT_TRUE(isJudged());
 }
 
 } // namespace

@@ -436,21 +436,5 @@ TEST_F(AreaSamplesSlow, extremeSizesAndPlacesGiveFiniteLight) {
     }
 }
 
-/// An area light that is off, or excluded by soloLight, does not prevent judging.
-TEST(AreaLightsJudged, areThoseThatShine) {
-    scenes::Scene scene = quadScene(sampledMatte());
-    scene.lights = {areaLight(LightType::Disk, {0.0, 0.0, 1.0}, {0.0, 0.0, -1.0}, 1.0f), scenes::Light()};
-    frame::FrameSettings settings;
-    const auto isJudged = [&] { return validation::referenceTolerance(scene, settings).relMse.has_value(); };
-    EXPECT_FALSE(isJudged());
-    settings.soloLight = 1;
-    EXPECT_TRUE(isJudged());
-    settings.soloLight = 0;
-    EXPECT_FALSE(isJudged());
-    settings.soloLight.reset();
-    scene.lights[0].enabled = false;
-    EXPECT_TRUE(isJudged());
-}
-
 } // namespace
 } // namespace tessera

@@ -29,7 +29,7 @@ struct Preferences {
     bool operator==(const Preferences&) const = default;
 };
 
-/// Moves a file to the front of the recent ones, of which ten are kept.
+/// Moves a file to the front of the recent ones; ten are kept.
 void addRecent(std::vector<std::string>& recent, const std::string& file);
 
 /// Path of the preferences: $XDG_CONFIG_HOME/tessera/viewer.json or ~/.config, %APPDATA% on Windows,

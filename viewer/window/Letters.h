@@ -7,7 +7,7 @@
 namespace tessera::viewer {
 
 /// The letters that the interface needs glyphs for: those of western Europe, and any others that occur in texts. A font
-/// has tens of thousands, of which a scene needs few.
+/// has tens of thousands, and a scene needs few.
 class Letters {
 public:
     /// Adds the letters of a UTF-8 text. Those beyond 16 bits, such as emoji, are not supported and ignored.
