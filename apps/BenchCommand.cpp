@@ -139,7 +139,7 @@ int bench(const BenchCommandOptions& options, const GlobalOptions& global) {
 
 void addBenchCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     CLI::App* command =
-        app.add_subcommand("bench", "Error against run time: measures techniques in turn and says which one to take");
+        app.add_subcommand("bench", "Error against run time: measures techniques in turn and recommends one");
     auto options = std::make_shared<BenchCommandOptions>();
     command->add_option("scenes", options->scenes, "Scenes to measure, files or built-in ones (tessera scenes)")
         ->type_name("SCENE");

@@ -50,7 +50,7 @@ validation::BenchPlan planOfJob(const BenchJobOptions& options, validation::Benc
         requireLitPicture(settings, "bench");
         if (settings.samples != 1) throw InputError("bench measures frames of one sample a pixel; give --samples 1");
         if (benchTruthNamed(options.against) == validation::BenchTruth::Reference)
-            validation::requireReferenceTakes(settings);
+            validation::requireReferenceSupports(settings);
         validation::addToPlan(plan, matrix, scene, options.frame.lights, settings, [&](std::optional<int> lights) {
             frame.lights = lights;
             return loadFor(frame);

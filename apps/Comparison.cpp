@@ -60,28 +60,28 @@ std::vector<engine::Technique> techniquesOf(const ComparisonOptions& options, co
                                             const frame::FrameSettings& settings,
                                             std::vector<validation::LeftOutTechnique>& leftOut) {
     const auto* truth = std::get_if<engine::Technique>(&against);
-    if (truth) engine::requireTaken({*truth, validation::settingsTakenBy(*truth, settings)});
+    if (truth) engine::requireSupported({*truth, validation::supportedSettings(*truth, settings)});
     std::vector<engine::Technique> techniques;
-    const std::string asked =
+    const std::string requested =
         options.techniques.empty() ? options.frame.said("technique").value_or("") : options.techniques;
-    if (!asked.empty()) {
-        for (const std::string& name : splitAtCommas(asked)) {
+    if (!requested.empty()) {
+        for (const std::string& name : splitAtCommas(requested)) {
             const engine::Technique technique = techniqueNamed(name);
             if (std::find(techniques.begin(), techniques.end(), technique) != techniques.end())
                 throw InputError(fmt::format("--techniques {} names {} twice", options.techniques, name));
-            engine::requireTaken({technique, validation::settingsHeededBy(technique, settings)});
+            engine::requireSupported({technique, validation::settingsUsedBy(technique, settings)});
             techniques.push_back(technique);
         }
         return techniques;
     }
-    techniques = validation::techniquesTaking(settings, leftOut);
+    techniques = validation::techniquesSupporting(settings, leftOut);
     if (truth) std::erase(techniques, *truth);
     return techniques;
 }
 
 frame::PreparedView preparedForward(const Request& request, const Comparison& comparison) {
     return engine::prepareView(request.scene, engine::Technique::Forward,
-                               validation::settingsHeededBy(engine::Technique::Forward, comparison.request.settings));
+                               validation::settingsUsedBy(engine::Technique::Forward, comparison.request.settings));
 }
 
 void warnOfIntegers(const validation::Truth& truth) {
@@ -112,7 +112,7 @@ Comparison comparisonOf(const ComparisonOptions& options, const Request& request
             "--view {} shows what each technique does, which is not meant to be the same; render it", view.name));
     compare.techniques = techniquesOf(options, compare.against, request.settings, comparison.leftOut);
     if (std::holds_alternative<validation::Reference>(compare.against)) {
-        validation::requireReferenceTakes(compare.settings);
+        validation::requireReferenceSupports(compare.settings);
         // Hardware filtering would hide the compared differences; it is compared in a separate pair.
         if (!options.frame.said("filter")) compare.settings.filter = frame::TextureFilter::Exact;
         // The reference shows the unblurred map; the blur is an aesthetic choice, not a lighting difference.
@@ -127,13 +127,13 @@ void warnOfComparison(const ComparisonOptions& options, const Request& request, 
     std::vector<engine::Technique> techniques = comparison.request.techniques;
     if (const auto* truth = std::get_if<engine::Technique>(&comparison.request.against)) techniques.push_back(*truth);
     const bool besideReference = std::holds_alternative<validation::Reference>(comparison.request.against);
-    for (const std::string& unheeded : unheededSettings(options.frame, request, prepared, techniques, besideReference))
-        spdlog::warn("{}", unheeded);
+    for (const std::string& unused : unusedSettings(options.frame, request, prepared, techniques, besideReference))
+        spdlog::warn("{}", unused);
     if (const std::string missing =
             engine::missingShadows(request.scene, frame::surfaceBounds(request.scene), prepared);
         !missing.empty())
         spdlog::warn("{}", oneLine(request.scene.name + ": " + missing));
-    if (const std::string unseen = engine::unseenSpread(request.scene, prepared); !unseen.empty())
+    if (const std::string unseen = engine::invisibleDiffusion(request.scene, prepared); !unseen.empty())
         spdlog::warn("{}", oneLine(request.scene.name + ": " + unseen));
     warnOfIntegers(comparison.request.against);
 }

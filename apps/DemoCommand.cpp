@@ -106,7 +106,7 @@ validation::Report makeReport(const std::string& source, const Request& request,
         report.plans.push_back(
             {std::string(infoOf(technique).name),
              graph::planText(engine::planFrame(request.scene, technique,
-                                               validation::settingsTakenBy(technique, request.settings)))});
+                                               validation::supportedSettings(technique, request.settings)))});
     }
     const std::string& truth = comparison.truth.name;
     report.pictures.push_back({truth, "the truth of every pair", result.pictures[0]});
@@ -186,7 +186,7 @@ int demo(const DemoOptions& options, const GlobalOptions& global) {
     DemoResult result;
     frame::FrameSettings sampled;
     sampled.samples = request.settings.samples;
-    result.techniques = validation::techniquesTaking(sampled, leftOut);
+    result.techniques = validation::techniquesSupporting(sampled, leftOut);
     if (leftOut.empty()) result.techniques.assign(std::begin(kShown), std::end(kShown));
     const DemoFiles files{options.folder};
     const Outputs outputs = outputsOf(files, request, result.techniques);

@@ -15,9 +15,9 @@ FrameOptions withRemembered(FrameOptions options, const viewer::Preferences& rem
     for (const engine::Setting& setting : engine::settingTable()) {
         const auto known = remembered.settings.find(setting.key);
         const std::string key(setting.key);
-        const bool isOfFile = scene.options.wishes.contains(key) && !scene.supplied.wishes.contains(key);
-        const bool isAsked = options.said(setting.key) || isOfFile;
-        if (!setting.isRemembered || isAsked || known == remembered.settings.end()) continue;
+        const bool isOfFile = scene.options.requested.contains(key) && !scene.supplied.requested.contains(key);
+        const bool isRequested = options.said(setting.key) || isOfFile;
+        if (!setting.isRemembered || isRequested || known == remembered.settings.end()) continue;
         try {
             engine::ViewRequest tried;
             setting.read(tried, known->second);

@@ -67,7 +67,7 @@ constexpr std::array kLoadKeywords{
     LoadKeywordRow{{"fov", KeywordKind::Number, "Vertical field of view of a perspective camera, degrees"},
                    [](const KeywordValue& value, FrameOptions& options) { options.pose.fovYDegrees = value.number; }},
     LoadKeywordRow{
-        {"half_height", KeywordKind::Number, "Half the height of what an orthographic camera sees, metres"},
+        {"half_height", KeywordKind::Number, "Half the height of an orthographic camera's view, metres"},
         [](const KeywordValue& value, FrameOptions& options) { options.pose.halfHeightMetres = value.number; }},
     LoadKeywordRow{{"near", KeywordKind::Number, "Nothing nearer is drawn, metres"},
                    [](const KeywordValue& value, FrameOptions& options) { options.pose.nearMetres = value.number; }},

@@ -63,32 +63,32 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
 void settleForReference(const FrameOptions& options, frame::FrameSettings& settings) {
     // As compare does; hardware filtering is available on request.
     if (!options.said("filter")) settings.filter = frame::TextureFilter::Exact;
-    validation::requireReferenceTakes(settings);
+    validation::requireReferenceSupports(settings);
 }
 
 namespace {
 
 /// Why the reference ignores a given option; empty: it may change the image.
-std::string whyUnheededByReference(const engine::Setting& setting, const Request& request) {
+std::string whyUnusedByReference(const engine::Setting& setting, const Request& request) {
     if (setting.panel == engine::SettingPanel::Shadows && setting.key != "shadows")
         return "The reference follows rays of its own";
     if (setting.panel == engine::SettingPanel::Skin && setting.key != "subsurface")
         return "The reference integrates over the surface";
-    if (setting.heeds != nullptr && !setting.isDefault(request))
+    if (setting.usedBy != nullptr && !setting.isDefault(request))
         return "The reference follows a ray a pixel, without passes";
-    if (std::string why = whyUnheeded(setting, request); !why.empty()) return why;
+    if (std::string why = whyUnused(setting, request); !why.empty()) return why;
     const bool isOfItsLight = setting.key == "environmentSamples" || setting.ofAreaLights;
     return isOfItsLight ? "The reference integrates in its own way" : "";
 }
 
 } // namespace
 
-std::vector<std::string> unheededByReference(const FrameOptions& options, const Request& request) {
+std::vector<std::string> unusedByReference(const FrameOptions& options, const Request& request) {
     std::vector<std::string> messages;
     for (const engine::Setting& setting : engine::settingTable()) {
         if (!options.said(setting.key)) continue;
-        if (const std::string why = whyUnheededByReference(setting, request); !why.empty())
-            messages.push_back(unheededText(setting, why));
+        if (const std::string why = whyUnusedByReference(setting, request); !why.empty())
+            messages.push_back(unusedText(setting, why));
     }
     return messages;
 }

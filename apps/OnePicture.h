@@ -18,6 +18,6 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
 /// support.
 void settleForReference(const FrameOptions& options, frame::FrameSettings& settings);
 /// Warnings for given settings that do not affect the reference's images: one or two sentences each.
-std::vector<std::string> unheededByReference(const FrameOptions& options, const Request& request);
+std::vector<std::string> unusedByReference(const FrameOptions& options, const Request& request);
 
 } // namespace tessera::app

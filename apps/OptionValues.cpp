@@ -9,7 +9,7 @@
 #include "engine/Settings.h"
 #include "engine/Techniques.h"
 #include "scenes/Environment.h"
-#include "scenes/ImportWishes.h"
+#include "scenes/ImportOptions.h"
 #include "scenes/Load.h"
 #include "validation/stress/StressCase.h"
 

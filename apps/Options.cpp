@@ -144,7 +144,7 @@ void addFrameSettings(CLI::App& command, FrameOptions& options) {
     addNumber(command, "--fov", options.pose.fovYDegrees, "Vertical field of view of a perspective camera", "DEGREES")
         ->group("Camera");
     addNumber(command, "--half-height", options.pose.halfHeightMetres,
-              "Half the height of what an orthographic camera sees", "METRES")
+              "Half the height of an orthographic camera's view", "METRES")
         ->group("Camera");
     addNumber(command, "--near", options.pose.nearMetres, "Nothing nearer is drawn", "METRES")->group("Camera");
     addNumber(command, "--far", options.pose.farMetres, "Nothing farther is drawn", "METRES")->group("Camera");

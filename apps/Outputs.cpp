@@ -89,9 +89,10 @@ void Outputs::reads(const std::vector<std::string>& files) {
 
 const std::string& Outputs::at(const std::string& path) const {
     const std::string identity = identityOf(path);
-    const bool isTold = identity.empty() || outputs_.contains(identity) ||
-                        std::ranges::any_of(folders_, [&](const auto& folder) { return isWithin(identity, folder); });
-    if (!isTold)
+    const bool isRegistered =
+        identity.empty() || outputs_.contains(identity) ||
+        std::ranges::any_of(folders_, [&](const auto& folder) { return isWithin(identity, folder); });
+    if (!isRegistered)
         throw std::logic_error(
             fmt::format("{}: is written, but no output is registered for it; call Outputs::add() first", path));
     return path;

@@ -17,14 +17,14 @@ struct PlanOptions : PlanningOptions {
 int plan(const PlanOptions& options, const GlobalOptions& global) {
     const bool printsJson = isStandardOutput(options.json), printsDot = isStandardOutput(options.dot);
     if (printsJson && printsDot)
-        throw InputError("--json - and --dot - both ask for the standard output; name a file for one of them");
+        throw InputError("--json - and --dot - both name the standard output; name a file for one of them");
     requirePlan(options);
     for (const std::string& path : {options.json, options.dot})
         if (!path.empty()) requireOutput(path);
     Outputs outputs({options.json, options.dot});
     const Request request = resolve(options.frame);
     outputs.reads(request.files);
-    engine::requireTaken(request);
+    engine::requireSupported(request);
     warnOfPlan(options, request);
     const auto measured = [&] {
         const std::unique_ptr<gpu::Context> context = makeContext(global);
@@ -47,7 +47,7 @@ int plan(const PlanOptions& options, const GlobalOptions& global) {
 
 void addPlanCommand(CLI::App& app, const GlobalOptions& global, Run& run) {
     CLI::App* command =
-        app.add_subcommand("plan", "Tells what a frame runs, what it leaves out and why, and what it costs");
+        app.add_subcommand("plan", "Prints what a frame runs, what it leaves out and why, and what it costs");
     auto options = std::make_shared<PlanOptions>();
     addFrameOptions(*command, options->frame, "");
     command->add_option("--json", options->json, "Writes the plan as JSON; - prints it alone")->type_name("FILE");

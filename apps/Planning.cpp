@@ -34,26 +34,26 @@ std::vector<engine::ViewRequest> viewsOf(const PlanningOptions& options, const R
 } // namespace
 
 graph::Plan planOf(const PlanningOptions& options, const Request& request) {
-    engine::requireTaken(request);
+    engine::requireSupported(request);
     const std::vector<engine::ViewRequest> views = viewsOf(options, request);
     return views.size() > 1 ? engine::planViews(request.scene, views)
                             : engine::planFrame(request.scene, request.technique, request.settings);
 }
 
 void warnOfPlan(const PlanningOptions& options, const Request& request) {
-    std::optional<std::vector<std::string>> unheeded; // common to all views
+    std::optional<std::vector<std::string>> unused; // common to all views
     for (const engine::ViewRequest& view : viewsOf(options, request)) {
         const std::vector<std::string> own =
-            unheededSettings(options.frame, request, engine::prepareView(request.scene, view.technique, view.settings),
-                             {&view.technique, 1});
-        if (!unheeded) unheeded = own;
-        std::erase_if(*unheeded, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
+            unusedSettings(options.frame, request, engine::prepareView(request.scene, view.technique, view.settings),
+                           {&view.technique, 1});
+        if (!unused) unused = own;
+        std::erase_if(*unused, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
     }
-    for (const std::string& text : *unheeded) spdlog::warn("{}", text);
+    for (const std::string& text : *unused) spdlog::warn("{}", text);
 }
 
 graph::Plan measuredPlan(const Request& request, engine::Renderer& renderer, const gpu::Capabilities& gl) {
-    engine::requireTaken(request);
+    engine::requireSupported(request);
     const frame::FrameSettings settings = engine::settingsOn(gl, request.settings);
     graph::Plan plan = engine::planFrame(request.scene, request.technique, settings);
     validation::measurePlan(plan, renderer, request.technique, settings);

@@ -22,7 +22,7 @@ void requirePlan(const PlanningOptions& options);
 /// a camera.
 graph::Plan planOf(const PlanningOptions& options, const Request& request);
 
-/// Warns of given options that affect none of the views; see unheededSettings().
+/// Warns of given options that affect none of the views; see unusedSettings().
 void warnOfPlan(const PlanningOptions& options, const Request& request);
 
 /// planOf() with milliseconds, measured by a renderer of the request's scene.

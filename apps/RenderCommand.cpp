@@ -103,7 +103,7 @@ void warnOfPicture(const std::string& path, const std::string& fault, bool& hasW
 }
 
 /// Prints the scene's other cameras. Called after all checks, so that a mistake prints only its error.
-void tellOfCameras(const FrameOptions& options, const Request& request, bool isQuiet) {
+void printCameras(const FrameOptions& options, const Request& request, bool isQuiet) {
     if (const std::string text = camerasText(options, request); !text.empty() && !isQuiet) fmt::print("{}\n", text);
 }
 
@@ -116,9 +116,9 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
     if (job.sequence)
         job.sequence->leaveOutFinished(job.request, job.request.scene, makerText(std::string(kReferenceName)));
     if (job.pictures() == 0) return;
-    tellOfCameras(options.frame, job.request, global.quiet);
+    printCameras(options.frame, job.request, global.quiet);
     Progress progress("rendering", job.pictures() * std::size_t(settings.sizePixels.y), global.quiet);
-    for (const std::string& text : unheededByReference(options.frame, job.request)) spdlog::warn("{}", text);
+    for (const std::string& text : unusedByReference(options.frame, job.request)) spdlog::warn("{}", text);
     if (job.request.scene.environment && settings.environment.backdrop == frame::Backdrop::Blurred && !global.quiet)
         fmt::print("the reference shows the environment behind the scene as it is, without a blur\n");
     bool hasWarned = false;
@@ -133,8 +133,9 @@ void renderReference(const RenderOptions& options, RenderJob& job, const GlobalO
         const scenes::MovingParts moved = job.pose(one.timeSeconds);
         if (renderer) renderer->partsMoved(moved);
         Picture picture =
-            renderer ? validation::referencePicture(*renderer, one, rowDone, validation::Leeway::None).picture
-                     : validation::referencePicture(job.request.scene, one, rowDone, validation::Leeway::None).picture;
+            renderer
+                ? validation::referencePicture(*renderer, one, rowDone, validation::Alternatives::None).picture
+                : validation::referencePicture(job.request.scene, one, rowDone, validation::Alternatives::None).picture;
         warnOfPicture(path, faultOf(job.request.scene, one.view, picture.rgba, ""), hasWarned);
         return isLinear ? encodeExr(picture) : encodePng(engine::toDisplayImage(picture, settings)).bytes;
     });
@@ -168,7 +169,7 @@ std::optional<FrameSequence> sequenceOf(const RenderOptions& options) {
 }
 
 /// Prints notes on the active clip; warns if --loop has no clip to repeat.
-void tellOfClip(const RenderOptions& options, RenderJob& job, bool isQuiet) {
+void printClip(const RenderOptions& options, RenderJob& job, bool isQuiet) {
     const scenes::Scene& scene = job.request.scene;
     if (const std::string clip = scenes::clipText(scene); !clip.empty() && !isQuiet) fmt::print("{}\n", oneLine(clip));
     if (!job.sequence) return;
@@ -183,7 +184,7 @@ void tellOfClip(const RenderOptions& options, RenderJob& job, bool isQuiet) {
 
 void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOptions& global) {
     Request& request = job.request;
-    engine::requireTaken(request);
+    engine::requireSupported(request);
     const std::unique_ptr<gpu::Context> context = makeContext(global);
     request.settings.display = extensionOf(job.output) != ".exr";
     job.pose(0.0); // as in renderReference()
@@ -193,42 +194,42 @@ void renderByContext(const FrameOptions& frame, RenderJob& job, const GlobalOpti
             makerText(fmt::format("{} {}", context->capabilities().renderer, context->capabilities().version)));
     if (job.pictures() == 0) return;
     engine::Renderer renderer(*context, request.scene);
-    tellOfCameras(frame, request, global.quiet);
+    printCameras(frame, request, global.quiet);
     filterEnvironment(request, renderer, global.quiet);
     // A single image is fast, except for diffusing subsurface irradiance, which has its own bar.
     Progress progress("rendering", job.pictures(), global.quiet || !job.sequence);
-    std::optional<Progress> spreading;
+    std::optional<Progress> diffusion;
     if (!job.sequence)
-        renderer.tellSpread([&](std::size_t done, std::size_t objects) {
+        renderer.reportDiffusion([&](std::size_t done, std::size_t objects) {
             if (done == 0)
-                spreading.emplace("spreading light over objects", objects, global.quiet);
+                diffusion.emplace("diffusing light over objects", objects, global.quiet);
             else
-                spreading->advance();
-            if (done == objects) spreading.reset();
+                diffusion->advance();
+            if (done == objects) diffusion.reset();
         });
-    bool hasWarned = false, hasWarnedOfShadows = false, hasWarnedOfTextures = false, hasWarnedOfSpread = false;
-    std::optional<std::vector<std::string>> unheeded; // common to all images
+    bool hasWarned = false, hasWarnedOfShadows = false, hasWarnedOfTextures = false, hasWarnedOfDiffusion = false;
+    std::optional<std::vector<std::string>> unused; // common to all images
     job.make(request.settings, [&](const std::string& path, const frame::FrameSettings& one) {
         renderer.partsMoved(job.pose(one.timeSeconds));
         const engine::RenderedFrame picture = renderer.render(request.technique, one);
         if (const std::string missing = renderer.missingTextures();
             !missing.empty() && !std::exchange(hasWarnedOfTextures, true))
             spdlog::warn("{}", oneLine(path + ": " + missing));
-        if (const std::string unseen = renderer.unseenSpread();
-            !unseen.empty() && !std::exchange(hasWarnedOfSpread, true))
+        if (const std::string unseen = renderer.invisibleDiffusion();
+            !unseen.empty() && !std::exchange(hasWarnedOfDiffusion, true))
             spdlog::warn("{}", oneLine(path + ": " + unseen));
         const engine::DrawnShadows shadows = renderer.shadows();
         warnOfPicture(path, faultOf(request.scene, one.view, picture.radiance, shadows.cut), hasWarned);
         if (!shadows.missing.empty() && !std::exchange(hasWarnedOfShadows, true))
             spdlog::warn("{}", oneLine(path + ": " + shadows.missing));
-        const std::vector<std::string> own = unheededSettings(
+        const std::vector<std::string> own = unusedSettings(
             frame, request, engine::prepareView(request.scene, request.technique, one), {&request.technique, 1});
-        if (!unheeded) unheeded = own;
-        std::erase_if(*unheeded, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
+        if (!unused) unused = own;
+        std::erase_if(*unused, [&](const std::string& text) { return std::ranges::find(own, text) == own.end(); });
         progress.advance();
         return encodedPicture(path, request, renderer, picture);
     });
-    for (const std::string& text : unheeded.value_or(std::vector<std::string>())) spdlog::warn("{}", text);
+    for (const std::string& text : unused.value_or(std::vector<std::string>())) spdlog::warn("{}", text);
 }
 
 int render(const RenderOptions& options, const GlobalOptions& global) {
@@ -242,7 +243,7 @@ int render(const RenderOptions& options, const GlobalOptions& global) {
     job.request = resolve(frame);
     job.outputs = Outputs(job.sequence ? job.sequence->outputs() : std::vector{job.output});
     job.outputs.reads(job.request.files);
-    tellOfClip(options, job, global.quiet);
+    printClip(options, job, global.quiet);
     if (const std::string supplied = scenes::suppliedText(job.request.scene); !supplied.empty() && !global.quiet)
         fmt::print("{}\n", supplied);
     for (const std::string& note : job.request.scene.notes)

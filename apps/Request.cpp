@@ -73,7 +73,7 @@ double secondsFor(const FrameOptions& options, const scenes::Scene& scene) {
     if (const auto said = options.said("time"))
         time.read(request, *said, fromCommandLine(time));
     else
-        engine::takeWishes(scene, options.scene, request, [](const engine::Setting& setting) {
+        engine::applyRequestedOptions(scene, options.scene, request, [](const engine::Setting& setting) {
             return setting.key != "time"; // the other settings are only checked, not applied
         });
     return request.settings.timeSeconds;
@@ -174,7 +174,7 @@ Request resolveWithoutScene(const FrameOptions& options) {
 
 void resolveForScene(const FrameOptions& options, Request& request) {
     const auto isSaid = [&](const engine::Setting& setting) { return options.said(setting.key).has_value(); };
-    engine::takeWishes(request.scene, options.scene, request, isSaid);
+    engine::applyRequestedOptions(request.scene, options.scene, request, isSaid);
     for (const engine::Setting& setting : engine::settingTable())
         if (const auto text = setting.isOfScene ? options.said(setting.key) : std::nullopt)
             setting.read(request, *text, fromCommandLine(setting, &request.scene));
@@ -204,10 +204,10 @@ std::string whyNoScattering(const engine::Setting& setting, const Request& reque
     if (setting.key == "subsurface" && request.settings.subsurface == scenes::SubsurfaceMethod::None) return {};
     if (!scenes::anyScatters(request.scene))
         return "No material has subsurface scattering; give one the key 'subsurface' in a scene file";
-    if (setting.key == "subsurface" || scenes::anySpreads(request.scene, request.settings.subsurface)) return {};
-    constexpr auto kSpreading = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
-    if (!scenes::anySpreads(request.scene, kSpreading)) return "No surface that is drawn has subsurface scattering";
-    return fmt::format("Light spreads over no surface; give --subsurface {}", infoOf(kSpreading).name);
+    if (setting.key == "subsurface" || scenes::anyDiffuses(request.scene, request.settings.subsurface)) return {};
+    constexpr auto kDiffusion = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
+    if (!scenes::anyDiffuses(request.scene, kDiffusion)) return "No surface that is drawn has subsurface scattering";
+    return fmt::format("No surface diffuses light; give --subsurface {}", infoOf(kDiffusion).name);
 }
 
 /// Why a given shadow setting changes nothing although the view has shadows.
@@ -229,7 +229,7 @@ std::string whyNoShadows(const engine::Setting& setting, const Request& request,
 /// Warning for a given soft shadow filter in a view without shadowed area lights.
 std::string asHardShadows(const engine::Setting& setting, const Request& request, const frame::PreparedView& prepared) {
     const frame::ShadowFilterInfo& filter = infoOf(request.settings.shadowFilter);
-    if (setting.key != "shadowFilter" || !filter.usesMaps || !filter.heedsSizes || prepared.lights.shadowed == 0 ||
+    if (setting.key != "shadowFilter" || !filter.usesMaps || !filter.usesSizes || prepared.lights.shadowed == 0 ||
         prepared.lights.features[frame::Feature::SoftShadows])
         return {};
     return fmt::format("{} {} looks up one texel, as {} does: no light in view that casts shadows has a size",
@@ -238,38 +238,38 @@ std::string asHardShadows(const engine::Setting& setting, const Request& request
 
 } // namespace
 
-std::string whyUnheeded(const engine::Setting& setting, const Request& request) {
+std::string whyUnused(const engine::Setting& setting, const Request& request) {
     const bool isOfGlass = setting.key == "refraction" || setting.key == "glassDepth";
     if (isOfGlass && !frame::mayLookBehindGlass(request.scene))
         return "No material that transmits has a thickness or is rough";
     return setting.whyIdle(request, &request.scene);
 }
 
-std::string unheededText(const engine::Setting& setting, std::string why) {
+std::string unusedText(const engine::Setting& setting, std::string why) {
     why.front() = char(std::toupper(static_cast<unsigned char>(why.front())));
     return fmt::format("{} changes nothing. {}", setting.flag, why);
 }
 
-std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
-                                          const frame::PreparedView& prepared,
-                                          std::span<const engine::Technique> techniques, bool besideReference) {
+std::vector<std::string> unusedSettings(const FrameOptions& options, const Request& request,
+                                        const frame::PreparedView& prepared,
+                                        std::span<const engine::Technique> techniques, bool besideReference) {
     std::vector<std::string> messages;
     if (!frame::showsShadows(request.settings.view)) return messages; // the same options serve all views
     for (const engine::Setting& setting : engine::settingTable()) {
         if (!options.said(setting.key)) continue;
         std::string why = setting.whyIgnored(request, techniques);
         if (setting.ofReference && !besideReference && !setting.isDefault(request))
-            why = "The reference alone heeds it; draw by --technique reference, or compare with it";
+            why = "The reference alone uses it; draw by --technique reference, or compare with it";
         else if (setting.panel == engine::SettingPanel::Skin)
             why = whyNoScattering(setting, request);
         else if (setting.panel == engine::SettingPanel::Shadows)
             why = whyNoShadows(setting, request, prepared);
         else if (why.empty())
-            why = whyUnheeded(setting, request);
+            why = whyUnused(setting, request);
         if (const std::string asHard = asHardShadows(setting, request, prepared); !asHard.empty())
             messages.push_back(asHard);
         else if (!why.empty())
-            messages.push_back(unheededText(setting, why));
+            messages.push_back(unusedText(setting, why));
     }
     const bool isBehindMap = request.scene.environment && request.settings.environment.backdrop != frame::Backdrop::Off;
     if (options.background && isBehindMap)

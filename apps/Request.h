@@ -38,7 +38,7 @@ struct FrameOptions {
     std::optional<glm::dvec3> background;      ///< the same
     std::optional<std::string> clip;           ///< the same
     std::vector<scenes::HookValue> hookValues; ///< the same
-    scenes::ImportWishes import;               ///< the same
+    scenes::ImportOptions import;              ///< the same
     scenes::CameraChange pose;                 ///< of the selected camera
 
     /// The given text of a setting, if any.
@@ -77,14 +77,14 @@ scenes::LoadOptions loadOptionsOf(const FrameOptions& options);
 
 /// Why a setting, except those of shadows and subsurface scattering, changes no image of the request's scene; empty: it
 /// may change one.
-std::string whyUnheeded(const engine::Setting& setting, const Request& request);
+std::string whyUnused(const engine::Setting& setting, const Request& request);
 /// Warning "--flag changes nothing. Why" for a given setting.
-std::string unheededText(const engine::Setting& setting, std::string why);
+std::string unusedText(const engine::Setting& setting, std::string why);
 /// Warnings for given settings that certainly change no image of these techniques, nor of the reference if drawn too:
 /// one or two sentences each.
-std::vector<std::string> unheededSettings(const FrameOptions& options, const Request& request,
-                                          const frame::PreparedView& prepared,
-                                          std::span<const engine::Technique> techniques, bool besideReference = false);
+std::vector<std::string> unusedSettings(const FrameOptions& options, const Request& request,
+                                        const frame::PreparedView& prepared,
+                                        std::span<const engine::Technique> techniques, bool besideReference = false);
 engine::Technique techniqueNamed(const std::string& name);
 glm::ivec2 sizeNamed(const std::string& flag, const std::string& text);
 

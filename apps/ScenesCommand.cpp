@@ -61,7 +61,7 @@ int printSchema() {
     Json schema = Json::parse(scenes::sceneSchema());
     Json& options = schema["definitions"]["options"];
     for (const engine::Setting& setting : engine::settingTable()) {
-        if (!setting.isWishable) continue;
+        if (!setting.isRequestable) continue;
         Json own = std::visit([](const auto& kind) { return schemaOf(kind); }, setting.value.kind);
         if (!setting.value.open.empty()) own = {{"anyOf", {std::move(own), {{"const", setting.value.open}}}}};
         if (!own.contains("$ref")) own["description"] = setting.help;

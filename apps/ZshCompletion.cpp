@@ -93,7 +93,7 @@ _tessera() {
     return ret
 }
 
-# The first use loads this file and asks it at once; sourced, it only tells the shell.
+# The first use loads this file and calls it at once; sourced, it only registers it.
 if [[ $funcstack[1] == _tessera ]]; then
     _tessera "$@"
 else

@@ -40,7 +40,7 @@ bool canCull(const frame::FeatureSet& features, const frame::PackedLights& light
 
 } // namespace
 
-bool takesMethod(Technique technique, Method method) {
+bool supportsMethod(Technique technique, Method method) {
     const std::span<const Method> methods = infoOf(technique).methods;
     return std::find(methods.begin(), methods.end(), method) != methods.end();
 }

@@ -8,7 +8,7 @@
 
 namespace tessera::engine {
 
-bool takesMethod(Technique technique, culling::Method method);
+bool supportsMethod(Technique technique, culling::Method method);
 
 /// Whether a technique uses light lists.
 bool hasLightLists(Technique technique);

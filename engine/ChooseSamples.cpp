@@ -9,7 +9,7 @@
 
 namespace tessera::engine {
 
-bool takesSamples(const TechniqueInfo& info, int samples) {
+bool supportsSamples(const TechniqueInfo& info, int samples) {
     return samples == 1 || info.multisamples();
 }
 
@@ -24,7 +24,7 @@ frame::FrameSettings settingsOn(const gpu::Capabilities& capabilities, frame::Fr
         std::vector<std::size_t> counts;
         for (const auto& places : given) counts.push_back(places.size());
         throw InputError(fmt::format("samples {}: this driver's 32-bit float render targets have {} samples; "
-                                     "ask for fewer",
+                                     "request fewer",
                                      settings.samples, fmt::join(counts, " or ")));
     }
     settings.samplePlaces = *enough;
@@ -37,8 +37,8 @@ int chooseSamples(const frame::FrameSettings& settings) {
         throw InputError(
             fmt::format("samples {}: a pixel can have {} samples", settings.samples, fmt::join(counts, ", ")));
     // One sample needs no driver query: every texture supports it.
-    const bool wasAsked = settings.samples > 1 && !settings.samplePlaces.empty();
-    return wasAsked ? int(settings.samplePlaces.size()) : settings.samples;
+    const bool wasRequested = settings.samples > 1 && !settings.samplePlaces.empty();
+    return wasRequested ? int(settings.samplePlaces.size()) : settings.samples;
 }
 
 std::vector<graph::Plan::Choice> sampleChoices(const frame::FrameSettings& settings) {
@@ -46,7 +46,7 @@ std::vector<graph::Plan::Choice> sampleChoices(const frame::FrameSettings& setti
     const int given = chooseSamples(settings);
     if (settings.samplePlaces.empty()) {
         return {{"samples", std::to_string(settings.samples),
-                 "chosen by the setting samples; a driver may give more, which only a plan that measures asks it"}};
+                 "chosen by the setting samples; a driver may give more, which only a plan that measures queries"}};
     }
     return {{"samples", std::to_string(given),
              fmt::format("the setting samples is {}; {}", settings.samples,

@@ -9,7 +9,7 @@
 /// The samples per pixel: the requested number, limited by the technique and rounded up to a count of the driver.
 namespace tessera::engine {
 
-bool takesSamples(const TechniqueInfo& info, int samples);
+bool supportsSamples(const TechniqueInfo& info, int samples);
 
 /// Completes the settings with properties of the context: the kind of backend, and the driver's sample positions for
 /// the requested count. Throws InputError if no render target supports so many samples.

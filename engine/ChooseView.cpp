@@ -9,7 +9,7 @@
 
 namespace tessera::engine {
 
-bool takesView(const TechniqueInfo& info, frame::DebugView view) {
+bool supportsView(const TechniqueInfo& info, frame::DebugView view) {
     return info.usesGBuffer() || !frame::debugViewInfo(view).needsGBuffer;
 }
 

@@ -5,7 +5,7 @@
 /// Support of debug views by techniques.
 namespace tessera::engine {
 
-bool takesView(const TechniqueInfo& info, frame::DebugView view);
+bool supportsView(const TechniqueInfo& info, frame::DebugView view);
 
 /// Whether the frame stores the channel that the view shows; true for views that show none.
 bool storesShown(const frame::FrameSpec& spec);

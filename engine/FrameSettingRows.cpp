@@ -87,17 +87,17 @@ bool hasGBuffer(Technique technique) {
 bool hasSeveralSamples(Technique technique) {
     return infoOf(technique).multisamples();
 }
-bool takesItsMethod(const ViewRequest& request) {
-    return takesMethod(request.technique, request.settings.culling.method.value());
+bool supportsItsMethod(const ViewRequest& request) {
+    return supportsMethod(request.technique, request.settings.culling.method.value());
 }
-bool takesItsSamples(const ViewRequest& request) {
-    return takesSamples(infoOf(request.technique), request.settings.samples);
+bool supportsItsSamples(const ViewRequest& request) {
+    return supportsSamples(infoOf(request.technique), request.settings.samples);
 }
-bool takesItsStage(const ViewRequest& request) {
+bool supportsItsStage(const ViewRequest& request) {
     return infoOf(request.technique).choosesStage;
 }
-bool takesItsView(const ViewRequest& request) {
-    return takesView(infoOf(request.technique), request.settings.view);
+bool supportsItsView(const ViewRequest& request) {
+    return supportsView(infoOf(request.technique), request.settings.view);
 }
 
 } // namespace
@@ -118,7 +118,7 @@ std::vector<Setting> frameSettings() {
          .type = "NAME",
          .help = "G-buffer layout, one of " + namesOf(frame::layoutTable()),
          .label = "G-buffer",
-         .heeds = hasGBuffer,
+         .usedBy = hasGBuffer,
          .entersLight = false,
          .isRemembered = true,
          .value = choice(in(&FrameSettings::layout), frame::layoutTable(), &frame::LayoutInfo::layout)},
@@ -128,8 +128,8 @@ std::vector<Setting> frameSettings() {
          .type = "NAME",
          .help = "How lights are culled, one of " + namesOf(culling::methodTable()),
          .byItself = "the technique's own",
-         .heeds = hasLightLists,
-         .takes = takesItsMethod,
+         .usedBy = hasLightLists,
+         .supports = supportsItsMethod,
          .samePicture = true,
          .entersLight = false,
          .isRemembered = true,
@@ -140,7 +140,7 @@ std::vector<Setting> frameSettings() {
          .type = "PIXELS",
          .help = "Side of a light-culling tile",
          .byItself = numberText(culling::kUsualTilePixels),
-         .heeds = hasLightLists,
+         .usedBy = hasLightLists,
          .refusal = "it has no light lists",
          .samePicture = true,
          .entersLight = false,
@@ -153,7 +153,7 @@ std::vector<Setting> frameSettings() {
          .help = "Who builds the light lists, one of " + namesOf(culling::builderTable()),
          .byItself = "cpu on software rasterisers, else compute",
          .label = "Build lists on",
-         .heeds = hasLightLists,
+         .usedBy = hasLightLists,
          .refusal = "it has no light lists",
          .samePicture = true,
          .entersLight = false,
@@ -167,7 +167,7 @@ std::vector<Setting> frameSettings() {
                              namesOf(culling::normalTestTable()), culling::kLightsWorthNormals),
          .byItself = "where_worth",
          .label = "Normal culling",
-         .heeds = listsFromGBuffer,
+         .usedBy = listsFromGBuffer,
          .refusal = "it does not build light lists from a G-buffer",
          .samePicture = true,
          .entersLight = false,
@@ -179,9 +179,9 @@ std::vector<Setting> frameSettings() {
          .help = "Shader stage that lights the G-buffer, one of " + namesOf(frame::lightingStageTable()),
          .byItself = "fragment",
          .label = "Shade on",
-         .heeds = [](Technique technique) { return infoOf(technique).choosesStage; },
+         .usedBy = [](Technique technique) { return infoOf(technique).choosesStage; },
          .refusal = "it lights in fragment shaders only",
-         .takes = takesItsStage,
+         .supports = supportsItsStage,
          .samePicture = true,
          .entersLight = false,
          .value = choice(in(&FrameSettings::lightOn), frame::lightingStageTable(), &frame::LightingStageInfo::stage)},
@@ -199,9 +199,9 @@ std::vector<Setting> frameSettings() {
          .key = "samples",
          .type = "N",
          .help = "Samples of a pixel; more than 1 only with techniques without a G-buffer",
-         .heeds = hasSeveralSamples,
+         .usedBy = hasSeveralSamples,
          .refusal = "it has a G-buffer",
-         .takes = takesItsSamples,
+         .supports = supportsItsSamples,
          .isRemembered = true,
          .value = choice(in(&FrameSettings::samples), frame::kSampleCounts)},
         {.name = "camera",
@@ -229,7 +229,7 @@ std::vector<Setting> frameSettings() {
          .flag = "--range-tolerance",
          .key = "rangeTolerance",
          .type = "EPS",
-         .help = "Irradiance at which lights of A B C falloff and area lights end; compare tells what that drops",
+         .help = "Irradiance at which lights of A B C falloff and area lights end; compare reports what that drops",
          .panel = SettingPanel::None,
          .value = number(in(&FrameSettings::rangeTolerance), {.least = 0.0})},
         {.name = "area lights",
@@ -246,7 +246,7 @@ std::vector<Setting> frameSettings() {
          .help = "With sampled: how many samples a pixel takes of each area light, by the light's surface, by the "
                  "diffuse part and by each highlight",
          .ofAreaLights = true,
-         .ofAreaMethod = &frame::AreaLightsInfo::takesSamples,
+         .ofAreaMethod = &frame::AreaLightsInfo::usesSamples,
          .value = choice(in(&AreaSettings::samples), frame::kAreaSamples)},
         {.name = "view",
          .flag = "--view",
@@ -255,7 +255,7 @@ std::vector<Setting> frameSettings() {
          .help = fmt::format("What to show: 1 to {}, or one of {}", mostViewKey(), viewNames()),
          .panel = SettingPanel::View,
          .refusal = "it has no G-buffer",
-         .takes = takesItsView,
+         .supports = supportsItsView,
          .entersLight = false,
          .comesBack = false,
          .value = viewChoice()},
@@ -266,7 +266,7 @@ std::vector<Setting> frameSettings() {
          .help = "Only this light shines, counted from 0; the environment is seen, but lights nothing",
          .panel = SettingPanel::None,
          .isOfScene = true,
-         .isWishable = false, // lights may be deleted
+         .isRequestable = false, // lights may be deleted
          .isShared = true,
          .value = soloLight()},
     };

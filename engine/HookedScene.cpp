@@ -83,8 +83,8 @@ MovedVertices movedVertices(const HookRun& moving, const scenes::Hook& hook, con
             const glm::vec3& rest = mesh.positionsOS[first + i];
             const double metres = glm::distance(glm::dvec3(position), glm::dvec3(rest));
             // Tolerance for the fp32 rounding of a displacement at the limit.
-            const double leeway = 1e-6 * (hook.mayMoveMetres + glm::length(glm::dvec3(rest)));
-            const bool isTooFar = !(metres <= hook.mayMoveMetres + leeway);
+            const double tolerance = 1e-6 * (hook.mayMoveMetres + glm::length(glm::dvec3(rest)));
+            const bool isTooFar = !(metres <= hook.mayMoveMetres + tolerance);
             const bool hasNormal = isFinite(normal);
             static_cast<void>(isCut); // checked by HookRun
             if ((isTooFar || !hasNormal) && excess == Excess::Mark) {

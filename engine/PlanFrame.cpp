@@ -38,9 +38,9 @@ std::string truncationWords(const frame::TruncatedLights& lights, double toleran
 }
 
 /// Adds channels that are stored more precisely than in the requested layout.
-void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::GBufferLayout& asked,
+void addRefinements(graph::Plan& plan, const scenes::Scene& scene, const frame::GBufferLayout& requested,
                     const frame::FrameSpec& spec) {
-    for (const frame::Refinement& refinement : frame::refinements(asked, scene, spec.settings.subsurface)) {
+    for (const frame::Refinement& refinement : frame::refinements(requested, scene, spec.settings.subsurface)) {
         if (std::find(spec.channels.begin(), spec.channels.end(), refinement.channel) == spec.channels.end()) continue;
         plan.choices.push_back(
             {fmt::format("G-buffer channel {}", frame::channelTable()[std::size_t(refinement.channel)].name),
@@ -60,22 +60,22 @@ graph::Plan::Choice areaChoice(const frame::FrameSpec& spec) {
 }
 
 /// Describes the cost of diffusion: atlases, and levels of each object.
-graph::Plan::Choice spreadChoice(const frame::PreparedView& prepared) {
+graph::Plan::Choice diffusionChoice(const frame::PreparedView& prepared) {
     constexpr std::size_t kMostNamed = 4;
     std::vector<std::string> words;
-    for (std::size_t i = 0; i < std::min(prepared.spreadingViews.size(), kMostNamed); ++i) {
-        const std::size_t levels = prepared.spreadingViews[i].spec.spread->levels.size();
+    for (std::size_t i = 0; i < std::min(prepared.diffusionViews.size(), kMostNamed); ++i) {
+        const std::size_t levels = prepared.diffusionViews[i].spec.diffusionKernel->levels.size();
         words.push_back(
-            fmt::format("{}: {} level{}", prepared.spreadingObjects[i].name, levels, levels == 1 ? "" : "s"));
+            fmt::format("{}: {} level{}", prepared.diffusionObjects[i].name, levels, levels == 1 ? "" : "s"));
     }
-    if (prepared.spreadingViews.size() > kMostNamed)
-        words.push_back(fmt::format("{} more", prepared.spreadingViews.size() - kMostNamed));
+    if (prepared.diffusionViews.size() > kMostNamed)
+        words.push_back(fmt::format("{} more", prepared.diffusionViews.size() - kMostNamed));
     const frame::FrameSpec& spec = prepared.spec;
-    return {"spread light",
-            fmt::format("{} object{}, {} texels a side, {:.4g} MiB kept", prepared.spreadingViews.size(),
-                        prepared.spreadingViews.size() == 1 ? "" : "s", spec.spreadTexels(),
-                        spec.spreadLightBytes() / 1048576.0),
-            fmt::format("{}; only tiles that are seen are lit and spread", fmt::join(words, ", "))};
+    return {"diffused light",
+            fmt::format("{} object{}, {} texels a side, {:.4g} MiB kept", prepared.diffusionViews.size(),
+                        prepared.diffusionViews.size() == 1 ? "" : "s", spec.diffusionTexels(),
+                        spec.diffusionBytes() / 1048576.0),
+            fmt::format("{}; only visible tiles are lit and diffused", fmt::join(words, ", "))};
 }
 
 graph::Plan::Choice atlasChoice(const frame::ShadowMaps& maps, const frame::FrameSettings& settings) {
@@ -127,9 +127,9 @@ void addChoices(graph::Plan& plan, const scenes::Scene& scene, const frame::Prep
     if (CutShadows cut = cutShadows(prepared); !cut.why.empty())
         plan.choices.push_back(
             {"loops of lights", fmt::format("up to {} iterations", cut.iterations), std::move(cut.why)});
-    if (!prepared.spreadingViews.empty()) plan.choices.push_back(spreadChoice(prepared));
-    if (std::string unseen = unseenSpread(scene, prepared); !unseen.empty())
-        plan.choices.push_back({"width of spread light", "less than a texel", std::move(unseen)});
+    if (!prepared.diffusionViews.empty()) plan.choices.push_back(diffusionChoice(prepared));
+    if (std::string unseen = invisibleDiffusion(scene, prepared); !unseen.empty())
+        plan.choices.push_back({"width of diffused light", "less than a texel", std::move(unseen)});
     if (std::string missing = frame::missingTextures(prepared.spec); !missing.empty())
         plan.choices.push_back({"textures",
                                 prepared.spec.withoutTextures.empty()

@@ -73,7 +73,7 @@ constexpr double kWidestPcssRadians = std::numbers::pi / 6.0;
 /// Warning: a sun whose penumbrae exceed the search radius of pcss; empty if there is none.
 std::string penumbraeTooWide(const scenes::Scene& scene, const frame::PreparedView& prepared) {
     const frame::ShadowFilterInfo& filter = infoOf(prepared.spec.settings.shadowFilter);
-    if (!filter.usesMaps || !filter.heedsSizes) return "";
+    if (!filter.usesMaps || !filter.usesSizes) return "";
     for (std::size_t i = 0; i < prepared.lights.shadowed; ++i) {
         const scenes::Light& light = scene.lights[std::size_t(prepared.lights.sceneIndex[i])];
         if (light.type != scenes::LightType::Directional || double(light.angularRadiusRadians) <= kWidestPcssRadians)
@@ -87,7 +87,7 @@ std::string penumbraeTooWide(const scenes::Scene& scene, const frame::PreparedVi
 }
 
 /// Prefixes a warning about an object lit for diffusion, which has separate lights and shadow maps.
-std::string ofObject(const frame::SpreadingObject& object, const std::string& said) {
+std::string ofObject(const frame::DiffusionObject& object, const std::string& said) {
     return said.empty() ? "" : fmt::format("when lighting {} for diffusion: {}", object.name, said);
 }
 
@@ -107,31 +107,31 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
                                view.name, infoOf(settings.shadowFilter).name, settingOf("shadowFilter").flag);
     }
     if (std::string lost = shadowsLostByRounding(bounds, prepared); !lost.empty()) return lost;
-    for (std::size_t i = 0; i < prepared.spreadingViews.size(); ++i)
+    for (std::size_t i = 0; i < prepared.diffusionViews.size(); ++i)
         if (std::string lost =
-                ofObject(prepared.spreadingObjects[i], shadowsLostByRounding(bounds, prepared.spreadingViews[i]));
+                ofObject(prepared.diffusionObjects[i], shadowsLostByRounding(bounds, prepared.diffusionViews[i]));
             !lost.empty())
             return lost;
     return penumbraeTooWide(scene, prepared);
 }
 
-std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& prepared) {
+std::string invisibleDiffusion(const scenes::Scene& scene, const frame::PreparedView& prepared) {
     std::string first;
     std::size_t others = 0;
-    for (std::size_t i = 0; i < prepared.spreadingViews.size(); ++i) {
-        const frame::SpreadingObject& object = prepared.spreadingObjects[i];
+    for (std::size_t i = 0; i < prepared.diffusionViews.size(); ++i) {
+        const frame::DiffusionObject& object = prepared.diffusionObjects[i];
         const scenes::Material& material = scene.materials[std::size_t(object.material)];
         double widest = 0.0; // mm^2
         for (const scenes::DiffusionGaussian& gaussian : scenes::profileOf(material.subsurface))
             widest = std::max(widest, double(gaussian.varianceSquareMillimetres));
-        const frame::FrameSpec& spec = prepared.spreadingViews[i].spec;
-        if (!spec.spread->levels.empty() || widest == 0.0) continue;
+        const frame::FrameSpec& spec = prepared.diffusionViews[i].spec;
+        if (!spec.diffusionKernel->levels.empty() || widest == 0.0) continue;
         if (!first.empty()) {
             ++others;
             continue;
         }
-        const double texelMetres = spec.spread->texelMetres * double(material.subsurface.scaleMetres);
-        first = fmt::format("light does not spread over {} (material '{}'): its widest Gaussian is {:.3g} mm, and a "
+        const double texelMetres = spec.diffusionKernel->texelMetres * double(material.subsurface.scaleMetres);
+        first = fmt::format("light is not diffused over {} (material '{}'): its widest Gaussian is {:.3g} mm, and a "
                             "texel of its atlas {:.3g} mm; scaleMetres of the subsurface says how many metres a metre "
                             "of the model is, and {} how many texels there are",
                             object.name, material.name, std::sqrt(widest), 1e3 * texelMetres,
@@ -144,9 +144,9 @@ std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& 
 CutShadows cutShadows(const frame::PreparedView& prepared) {
     const frame::FrameSpec& spec = prepared.spec;
     if (!spec.mayCutLoops()) {
-        for (std::size_t i = 0; i < prepared.spreadingViews.size(); ++i)
-            if (const CutShadows cut = cutShadows(prepared.spreadingViews[i]); !cut.why.empty())
-                return {ofObject(prepared.spreadingObjects[i], cut.why), cut.iterations};
+        for (std::size_t i = 0; i < prepared.diffusionViews.size(); ++i)
+            if (const CutShadows cut = cutShadows(prepared.diffusionViews[i]); !cut.why.empty())
+                return {ofObject(prepared.diffusionObjects[i], cut.why), cut.iterations};
         return {};
     }
     if (spec.usesAreaSamples()) {
@@ -159,7 +159,7 @@ CutShadows cutShadows(const frame::PreparedView& prepared) {
                     spec.iterations};
     }
     const bool mayNarrow =
-        infoOf(spec.settings.shadowFilter).heedsWidth && spec.settings.shadowMaps.widthTexels > frame::kShadowWidths[0];
+        infoOf(spec.settings.shadowFilter).usesWidth && spec.settings.shadowMaps.widthTexels > frame::kShadowWidths[0];
     const std::string fewer = mayNarrow ? fmt::format("a smaller {} or ", settingOf("shadowWidth").flag)
                               : spec.features[frame::Feature::SoftShadows]
                                   ? fmt::format("fewer {} or ", settingOf("shadowSamples").flag)
@@ -207,7 +207,7 @@ void lightView(const scenes::Scene& scene, const frame::FrameSettings& settings,
 
 /// Prepares the diffusion view that lights an object's texels. Its camera covers the whole object, so that lights are
 /// culled against the object, independent of the frame's camera.
-frame::PreparedView prepareSpreading(const scenes::Scene& scene, const frame::SpreadingObject& object,
+frame::PreparedView prepareDiffusion(const scenes::Scene& scene, const frame::DiffusionObject& object,
                                      frame::FrameSettings settings, std::span<const frame::SurfaceBounds> bounds) {
     settings.sizePixels = glm::ivec2(settings.diffusion.sideTexels);
     settings.wholePixels.reset();
@@ -233,35 +233,36 @@ frame::PreparedView prepareSpreading(const scenes::Scene& scene, const frame::Sp
     prepared.camera = frame::makeCameraView(camera, settings.sizePixels, settings.space, glm::vec3(0.0f), {&own, 1},
                                             settings.snapPixels);
     const auto makeSpec = [&](const frame::PackedLights& lights) {
-        return frame::makeSpreadingSpec(scene, object, lights, settings);
+        return frame::makeDiffusionSpec(scene, object, lights, settings);
     };
     lightView(scene, settings, makeSpec, prepared);
     if (prepared.spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
     return prepared;
 }
 
-void addSpreading(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
+void addDiffusion(const scenes::Scene& scene, std::span<const frame::SurfaceBounds> bounds,
                   frame::PreparedView& prepared) {
     std::vector<frame::SurfaceBounds> own;
     if (bounds.empty()) bounds = own = frame::surfaceBounds(scene); // a plan
     frame::FrameSpec& spec = prepared.spec;
-    prepared.spreadingObjects = frame::spreadingObjects(scene, spec.settings.subsurface, bounds);
-    if (prepared.spreadingObjects.size() > kMostSpreadingObjects)
-        throw InputError(fmt::format("{}: light spreads over {} objects, {} is the most; give some of their materials "
-                                     "another subsurface method",
-                                     scene.name, prepared.spreadingObjects.size(), kMostSpreadingObjects));
-    const glm::ivec2 texels = frame::spreadLightAtlas(prepared.spreadingObjects.size(), spec.spreadTexels()).texels();
+    prepared.diffusionObjects = frame::diffusionObjects(scene, spec.settings.subsurface, bounds);
+    if (prepared.diffusionObjects.size() > kMostDiffusionObjects)
+        throw InputError(
+            fmt::format("{}: light is diffused over {} objects, {} is the most; give some of their materials "
+                        "another subsurface method",
+                        scene.name, prepared.diffusionObjects.size(), kMostDiffusionObjects));
+    const glm::ivec2 texels = frame::diffusionAtlas(prepared.diffusionObjects.size(), spec.diffusionTexels()).texels();
     const double gibibytes = double(texels.x) * double(texels.y) * sizeof(glm::vec4) / double(1u << 30u);
-    if (std::max(texels.x, texels.y) > frame::kLargestSidePixels || gibibytes > kMostSpreadLightGibibytes)
+    if (std::max(texels.x, texels.y) > frame::kLargestSidePixels || gibibytes > kMostDiffusionGibibytes)
         throw InputError(fmt::format(
-            "{}: light spreads over {} objects, whose atlases of {} texels a side together have "
+            "{}: light is diffused over {} objects, whose atlases of {} texels a side together have "
             "{}x{} and take {:.1f} GiB; {} texels a side and {:g} GiB are the most; give a "
             "smaller {}",
-            scene.name, prepared.spreadingObjects.size(), spec.spreadTexels(), texels.x, texels.y, gibibytes,
-            frame::kLargestSidePixels, kMostSpreadLightGibibytes, settingOf("diffusionTexels").flag));
-    for (const frame::SpreadingObject& object : prepared.spreadingObjects) {
-        prepared.spreadingViews.push_back(prepareSpreading(scene, object, spec.settings, bounds));
-        spec.spreadingViews.push_back(prepared.spreadingViews.back().spec);
+            scene.name, prepared.diffusionObjects.size(), spec.diffusionTexels(), texels.x, texels.y, gibibytes,
+            frame::kLargestSidePixels, kMostDiffusionGibibytes, settingOf("diffusionTexels").flag));
+    for (const frame::DiffusionObject& object : prepared.diffusionObjects) {
+        prepared.diffusionViews.push_back(prepareDiffusion(scene, object, spec.settings, bounds));
+        spec.diffusionViews.push_back(prepared.diffusionViews.back().spec);
     }
 }
 
@@ -313,7 +314,7 @@ frame::PreparedView prepareView(const scenes::Scene& scene, Technique technique,
                               });
     requireStoredChannel(spec);
     if (spec.features[frame::Feature::ShadowMaps]) addShadowMaps(scene, bounds, prepared);
-    if (spec.features[frame::Feature::SubsurfaceDiffusion]) addSpreading(scene, bounds, prepared);
+    if (spec.features[frame::Feature::SubsurfaceDiffusion]) addDiffusion(scene, bounds, prepared);
     spec.lightOn = chooseLighting(settings);
     spec.culling = chooseCulling(technique, settings, spec.features, prepared.lights);
     // These views light nothing, and no lists are built for them.

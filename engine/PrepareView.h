@@ -25,7 +25,7 @@ std::string missingShadows(const scenes::Scene& scene, std::span<const frame::Su
                            const frame::PreparedView& prepared);
 /// Warning: objects whose requested diffusion has no effect, since texels are larger than all widths of their profiles,
 /// with a remedy; empty if none.
-std::string unseenSpread(const scenes::Scene& scene, const frame::PreparedView& prepared);
+std::string invisibleDiffusion(const scenes::Scene& scene, const frame::PreparedView& prepared);
 /// Warning: loops of shadows or of area light samples may exceed Mesa's iteration limit. `why` names cause and remedy;
 /// it is empty within the limit.
 struct CutShadows {

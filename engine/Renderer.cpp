@@ -156,13 +156,13 @@ void Renderer::makeForShadows(const frame::FrameSpec& spec) {
 
 /// Tiles of an object's atlas that the view may sample. With several samples per pixel, texture coordinates are
 /// extrapolated beyond their triangle, to anywhere in the atlas.
-frame::TileSet Renderer::seenTiles(const frame::SpreadingObject& object, const frame::GpuUvAtlas& atlas,
+frame::TileSet Renderer::seenTiles(const frame::DiffusionObject& object, const frame::GpuUvAtlas& atlas,
                                    const frame::DrawnView& view) const {
     const frame::DrawList& list = view.scene->drawList();
     const auto drawn = std::ranges::find_if(
         view.draws.seen, [&](int i) { return list.draws[std::size_t(i)].instance == object.instance; });
     const frame::FrameSpec& spec = view.prepared.spec;
-    if (spreadsAll(view.prepared)) return frame::usedTiles(atlas.tiles);
+    if (diffusesAll(view.prepared)) return frame::usedTiles(atlas.tiles);
     const bool seesAll = !spec.settings.prune || spec.samples > 1;
     if (drawn == view.draws.seen.end() || seesAll) return frame::usedTiles(atlas.tiles, drawn != view.draws.seen.end());
     const frame::CameraView& camera = view.prepared.camera;
@@ -172,17 +172,17 @@ frame::TileSet Renderer::seenTiles(const frame::SpreadingObject& object, const f
                             shown_.materials[std::size_t(object.material)].doubleSided);
 }
 
-void Renderer::addSpreadingViews(std::size_t number, frame::DrawnView& view) {
+void Renderer::addDiffusionViews(std::size_t number, frame::DrawnView& view) {
     const frame::PreparedView& prepared = view.prepared;
-    if (prepared.spreadingViews.empty()) return;
+    if (prepared.diffusionViews.empty()) return;
     view.diffusionMemory = &diffusionMemories_[number];
-    if (!keepsSpreadLight_) view.diffusionMemory->forget();
-    view.diffusionMemory->limit(spreadLimit_ ? std::optional(spreadLimit_->tiles) : std::nullopt);
+    if (!keepsDiffusedLight_) view.diffusionMemory->forget();
+    view.diffusionMemory->limit(diffusionLimit_ ? std::optional(diffusionLimit_->tiles) : std::nullopt);
     const frame::DrawList& list = view.scene->drawList();
-    for (std::size_t cell = 0; cell < prepared.spreadingViews.size(); ++cell) {
-        const frame::SpreadingObject& object = prepared.spreadingObjects[cell];
-        frame::DrawnView::SpreadingView& own = view.spreadingViews.emplace_back();
-        own.drawn.prepared = prepared.spreadingViews[cell];
+    for (std::size_t cell = 0; cell < prepared.diffusionViews.size(); ++cell) {
+        const frame::DiffusionObject& object = prepared.diffusionObjects[cell];
+        frame::DrawnView::DiffusionView& own = view.diffusionViews.emplace_back();
+        own.drawn.prepared = prepared.diffusionViews[cell];
         own.drawn.scene = view.scene;
         own.drawn.environment = view.environment;
         own.drawn.lobes = view.lobes;
@@ -193,7 +193,7 @@ void Renderer::addSpreadingViews(std::size_t number, frame::DrawnView& view) {
         own.drawn.draws = frame::makeViewDraws(list, own.drawn.prepared.camera, false, isOwn);
         if (spec.features[frame::Feature::ShadowMaps])
             own.drawn.shadowMemory = &shadowMemories_.of(numberOfObject(number, cell), spec.settings);
-        own.uvAtlas = &uvAtlases_.of(object, spec.spreadTexels(), spec.gutterTexels);
+        own.uvAtlas = &uvAtlases_.of(object, spec.diffusionTexels(), spec.gutterTexels);
         own.key = frame::diffusionKey(shown_, object, own.drawn.prepared, view.scene->casterRevision());
         own.seen = seenTiles(object, *own.uvAtlas, view);
         // Kept even if this frame does not read it: the next one may.
@@ -201,21 +201,21 @@ void Renderer::addSpreadingViews(std::size_t number, frame::DrawnView& view) {
     }
 }
 
-void Renderer::tellSpreadOf(std::vector<frame::DrawnView>& views) const {
-    if (!spreadTold_) return;
+void Renderer::connectDiffusionReport(std::vector<frame::DrawnView>& views) const {
+    if (!reportDiffusion_) return;
     std::size_t objects = 0;
     for (const frame::DrawnView& view : views)
-        for (std::size_t cell = 0; cell < view.spreadingViews.size(); ++cell)
-            if (const auto& own = view.spreadingViews[cell];
+        for (std::size_t cell = 0; cell < view.diffusionViews.size(); ++cell)
+            if (const auto& own = view.diffusionViews[cell];
                 !view.diffusionMemory->missing(cell, own.key, own.seen).isEmpty())
                 ++objects;
     if (objects == 0) return;
-    const auto told = [this, objects, done = std::make_shared<std::size_t>(0)] {
+    const auto report = [this, objects, done = std::make_shared<std::size_t>(0)] {
         gpu::finish();
-        if (*done < objects) spreadTold_(++*done, objects);
+        if (*done < objects) reportDiffusion_(++*done, objects);
     };
-    for (frame::DrawnView& view : views) view.spreadOne = told;
-    spreadTold_(0, objects);
+    for (frame::DrawnView& view : views) view.objectDiffused = report;
+    reportDiffusion_(0, objects);
 }
 
 void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after) {
@@ -254,11 +254,11 @@ void Renderer::draw(std::span<const ViewRequest> views, const AfterOpaque& after
         view.draws = frame::makeViewDraws(view.scene->drawList(), view.prepared.camera, spec.settings.prune);
         view.listMemory = &listMemory_;
         if (spec.features[frame::Feature::ShadowMaps]) view.shadowMemory = &shadowMemories_.of(i, spec.settings);
-        addSpreadingViews(i, view);
+        addDiffusionViews(i, view);
         sources.push_back({views[i].technique, spec, &view});
     }
     drawn->declared = declareFrame(drawn->graph, sources, after);
-    tellSpreadOf(drawn->views);
+    connectDiffusionReport(drawn->views);
     const bool prune = drawn->views.front().prepared.spec.settings.prune;
     const graph::CompileOptions options{.cull = prune, .alias = prune};
     drawn->compiled = graph::compile(drawn->graph, options);
@@ -353,16 +353,16 @@ std::string Renderer::missingTextures(std::size_t view) const {
     return frame::missingTextures(latest().views.at(view).prepared.spec);
 }
 
-std::string Renderer::unseenSpread(std::size_t view) const {
-    return engine::unseenSpread(shown_, latest().views.at(view).prepared);
+std::string Renderer::invisibleDiffusion(std::size_t view) const {
+    return engine::invisibleDiffusion(shown_, latest().views.at(view).prepared);
 }
 
-SpreadProgress Renderer::spreadProgress(std::size_t view) const {
+DiffusionProgress Renderer::diffusionProgress(std::size_t view) const {
     const frame::DrawnView& drawn = latest().views.at(view);
-    SpreadProgress progress;
-    progress.isOfAll = spreadsAll(drawn.prepared);
-    for (std::size_t cell = 0; cell < drawn.spreadingViews.size(); ++cell) {
-        const frame::DrawnView::SpreadingView& own = drawn.spreadingViews[cell];
+    DiffusionProgress progress;
+    progress.isOfAll = diffusesAll(drawn.prepared);
+    for (std::size_t cell = 0; cell < drawn.diffusionViews.size(); ++cell) {
+        const frame::DrawnView::DiffusionView& own = drawn.diffusionViews[cell];
         const std::size_t tiles = own.seen.count();
         if (tiles == 0) continue;
         const std::size_t missing = drawn.diffusionMemory->missing(cell, own.key, own.seen).count();

@@ -60,16 +60,16 @@ struct DrawnShadows {
 };
 
 /// Work limit for updating stale subsurface irradiance (docs/skin.md); the rest is shaded undiffused.
-struct SpreadLimit {
+struct DiffusionLimit {
     std::size_t tiles = 0; ///< tiles (shared/diffusion.h) to light; diffusing tiles counts against it too
     bool isOfAll = false;  ///< also updates tiles not visible in this frame, up to kMostOfAllBytes
 };
 
-/// Beyond this size (FrameSpec::spreadLightBytes()), diffused irradiance is kept only for visible tiles.
+/// Beyond this size (FrameSpec::diffusionBytes()), diffused irradiance is kept only for visible tiles.
 constexpr double kMostOfAllBytes = double(1u << 30u);
 
 /// Progress of diffusion in a view: its objects and tiles, and those up to date.
-struct SpreadProgress {
+struct DiffusionProgress {
     bool isOfAll = false; ///< counts all tiles, not only visible ones
     std::size_t objects = 0, doneObjects = 0;
     std::size_t tiles = 0, doneTiles = 0;
@@ -129,7 +129,7 @@ public:
     /// Warning: material textures that a view of the latest draw() lacks, with the reason; empty: none.
     std::string missingTextures(std::size_t view = 0) const;
     /// Warning: objects of a view of the latest draw() whose requested diffusion has no effect; empty: none.
-    std::string unseenSpread(std::size_t view = 0) const;
+    std::string invisibleDiffusion(std::size_t view = 0) const;
 
     RenderedFrame render(Technique technique, const frame::FrameSettings& settings) {
         draw(technique, settings);
@@ -162,14 +162,16 @@ public:
 
     /// On: keeps diffused irradiance until one of its inputs changes (docs/skin.md). Off: each frame recomputes it, for
     /// measurements.
-    void keepSpreadLight(bool keeps) { keepsSpreadLight_ = keeps; }
+    void keepDiffusedLight(bool keeps) { keepsDiffusedLight_ = keeps; }
     /// Sets the limit for following frames; none: they update everything missing.
-    void limitSpreadLight(std::optional<SpreadLimit> limit) { spreadLimit_ = limit; }
+    void limitDiffusion(std::optional<DiffusionLimit> limit) { diffusionLimit_ = limit; }
     /// Progress callback during draw(), (done, total): the GPU has diffused the light of `done` of the objects to
     /// update. First called with done = 0, if there are any, then after each object. May be empty.
-    void tellSpread(std::function<void(std::size_t done, std::size_t objects)> told) { spreadTold_ = std::move(told); }
+    void reportDiffusion(std::function<void(std::size_t done, std::size_t objects)> report) {
+        reportDiffusion_ = std::move(report);
+    }
     /// Diffusion progress of a view after the latest draw().
-    SpreadProgress spreadProgress(std::size_t view = 0) const;
+    DiffusionProgress diffusionProgress(std::size_t view = 0) const;
 
     /// The scene's GPU data for frames of this spec.
     const frame::SceneGpu& sceneGpu(const frame::FrameSpec& spec);
@@ -187,16 +189,16 @@ private:
     struct Drawn;
     const Drawn& latest() const;
     /// Whether a view updates all diffusion tiles, visible or not.
-    bool spreadsAll(const frame::PreparedView& view) const {
-        return spreadLimit_ && spreadLimit_->isOfAll && view.spec.spreadLightBytes() <= kMostOfAllBytes;
+    bool diffusesAll(const frame::PreparedView& view) const {
+        return diffusionLimit_ && diffusionLimit_->isOfAll && view.spec.diffusionBytes() <= kMostOfAllBytes;
     }
-    frame::TileSet seenTiles(const frame::SpreadingObject& object, const frame::GpuUvAtlas& atlas,
+    frame::TileSet seenTiles(const frame::DiffusionObject& object, const frame::GpuUvAtlas& atlas,
                              const frame::DrawnView& view) const;
     /// Adds the diffusion views of a view's objects.
-    void addSpreadingViews(std::size_t number, frame::DrawnView& view);
+    void addDiffusionViews(std::size_t number, frame::DrawnView& view);
 
-    /// Connects the frame's views to the callback of tellSpread().
-    void tellSpreadOf(std::vector<frame::DrawnView>& views) const;
+    /// Connects the frame's views to the callback of reportDiffusion().
+    void connectDiffusionReport(std::vector<frame::DrawnView>& views) const;
 
     void forgetGeometry();
     /// Drops diffused irradiance and shadow maps if an edit of the hook or of shaders has replaced programs.
@@ -215,9 +217,9 @@ private:
     frame::ShadowMemories shadowMemories_;
     frame::GpuUvAtlases uvAtlases_;
     std::map<std::size_t, frame::DiffusionMemory> diffusionMemories_; ///< by view
-    bool keepsSpreadLight_ = true;
-    std::optional<SpreadLimit> spreadLimit_;
-    std::function<void(std::size_t, std::size_t)> spreadTold_;
+    bool keepsDiffusedLight_ = true;
+    std::optional<DiffusionLimit> diffusionLimit_;
+    std::function<void(std::size_t, std::size_t)> reportDiffusion_;
     std::shared_ptr<const frame::FilteredEnvironment> filteredEnvironment_; ///< null: not filtered yet, or on the GPU
     std::unique_ptr<frame::EnvironmentGpu> environment_;                    ///< made by the first frame that needs it
     frame::LobesGpu lobes_;

@@ -79,7 +79,7 @@ struct Setting {
     SettingPanel panel = SettingPanel::Frame; ///< viewer panel of the setting; None: it has a widget elsewhere, or none
     std::string_view label{};                 ///< in the panel; empty: the name
 
-    bool (*heeds)(Technique technique) = nullptr; ///< whether it affects frames of a technique; null: all
+    bool (*usedBy)(Technique technique) = nullptr; ///< whether it affects frames of a technique; null: all
     /// Why the other techniques refuse it: "it has no light lists"; empty: they ignore it.
     std::string_view refusal{};
     /// Property that a shadow filter must have for the setting to matter; null: none.
@@ -91,15 +91,15 @@ struct Setting {
     bool ofAreaLights = false; ///< no effect without area lights
     /// Property that an area light method must have for the setting to matter; null: none.
     bool frame::AreaLightsInfo::*ofAreaMethod = nullptr;
-    bool (*takes)(const ViewRequest& request) = nullptr; ///< whether the technique supports its value; null: always
+    bool (*supports)(const ViewRequest& request) = nullptr; ///< whether the technique supports its value; null: always
 
     bool samePicture = false; ///< changes speed, not the image: comparisons drop a value that a technique refuses
     bool sameCost = false;    ///< a pixel costs about the same for every value
     bool entersLight = true;  ///< may change incident light; if only other settings change, diffused irradiance is kept
     bool isOfScene = false;   ///< refers to objects of one scene
-    bool isWishable = true;   ///< scene files may set it
-    bool isShared = false;    ///< by the two sides of the viewer's comparisons
-    bool isOfFrame = false;   ///< must be equal for all views of a frame, which share data that depends on it
+    bool isRequestable = true; ///< scene files may set it
+    bool isShared = false;     ///< by the two sides of the viewer's comparisons
+    bool isOfFrame = false;    ///< must be equal for all views of a frame, which share data that depends on it
     bool isRemembered = false; ///< by the viewer from one run to the next
     bool comesBack = true;     ///< the viewer restores its value when a technique supports it again
 
@@ -115,14 +115,14 @@ struct Setting {
     std::string range() const;
     bool isDefault(const ViewRequest& request) const { return value.equal(request, ViewRequest()); }
     void reset(ViewRequest& request) const { value.copy(request, ViewRequest()); }
-    bool isHeededBy(Technique technique) const { return heeds == nullptr || heeds(technique); }
+    bool isUsedBy(Technique technique) const { return usedBy == nullptr || usedBy(technique); }
     /// Why the setting has no effect, given the request's other settings, such as the shadow filter, and the scene
     /// unless null; empty: it may have one.
     std::string whyIdle(const ViewRequest& request, const scenes::Scene* scene = nullptr) const;
     /// Why all of these techniques ignore the requested value; empty: it may affect one, or one refuses it.
     std::string whyIgnored(const ViewRequest& request, std::span<const Technique> techniques) const;
     /// Whether the request's technique supports the requested value of this setting.
-    bool isTaken(const ViewRequest& request) const;
+    bool isSupported(const ViewRequest& request) const;
 };
 
 /// All settings, in the order of --help.
@@ -131,13 +131,13 @@ std::span<const Setting> settingTable();
 const Setting& settingOf(std::string_view key);
 
 /// Throws InputError for the first setting that the request's technique does not support, and names techniques that do.
-void requireTaken(const ViewRequest& request);
+void requireSupported(const ViewRequest& request);
 /// The same for values that it cannot draw; settings that it ignores are accepted.
 void requireDrawable(const ViewRequest& request);
 
 /// Applies the options of the scene file, except settings given by the user (`isSaid`). Throws InputError
 /// "FILE:/options/KEY: what"; `file` is the scene's file.
-void takeWishes(
+void applyRequestedOptions(
     const scenes::Scene& scene, const std::string& file, ViewRequest& request,
     const std::function<bool(const Setting& setting)>& isSaid = [](const Setting&) { return false; });
 

@@ -53,7 +53,7 @@ FrameHandles declareShared(graph::Graph& graph, std::span<const ViewSource> view
     std::vector<const frame::FrameSpec*> specs;
     for (const ViewSource& view : views) {
         specs.push_back(&view.spec);
-        for (const frame::FrameSpec& object : view.spec.spreadingViews) specs.push_back(&object);
+        for (const frame::FrameSpec& object : view.spec.diffusionViews) specs.push_back(&object);
     }
     FrameHandles shared{frame::importScene(graph, specs, anyView.drawn ? anyView.drawn->scene : nullptr)};
     shared.scene.environment =
@@ -103,7 +103,7 @@ struct ViewWiring {
         if (spec.features[frame::Feature::ShadowMaps])
             lighting.shadowAtlas = ShadowMapsPass::add(graph, spec, {frame.scene, drawn, index}).atlas;
         if (spec.features[frame::Feature::SubsurfaceDiffusion])
-            surfaces.spreadLight = addSpreadLight(frame, view, index);
+            surfaces.diffusedLight = addDiffusedLight(frame, view, index);
     }
 
     void addEnvironment(const frame::EnvironmentHandles& all, graph::BufferHandle constants) {
@@ -125,42 +125,43 @@ struct ViewWiring {
 
     /// The diffusion work of a frame for the view's objects.
     frame::DiffusionSchedule diffusionSchedule(bool holdsAtlas) const {
-        std::vector<frame::DiffusionSchedule::Object> objects(spec.spreadingViews.size());
+        std::vector<frame::DiffusionSchedule::Object> objects(spec.diffusionViews.size());
         for (std::size_t cell = 0; cell < objects.size(); ++cell) {
-            const frame::LightSpread& spread = *spec.spreadingViews[cell].spread;
-            for (std::size_t level = 0; level < spread.levels.size(); ++level)
-                objects[cell].variancesSquareMetres.push_back(frame::levelReach(spread, level).mostSquareMetres());
+            const frame::DiffusionKernel& kernel = *spec.diffusionViews[cell].diffusionKernel;
+            for (std::size_t level = 0; level < kernel.levels.size(); ++level)
+                objects[cell].variancesSquareMetres.push_back(frame::levelReach(kernel, level).mostSquareMetres());
             if (!drawn) continue;
-            const frame::DrawnView::SpreadingView& own = drawn->spreadingViews[cell];
+            const frame::DrawnView::DiffusionView& own = drawn->diffusionViews[cell];
             objects[cell].key = own.key;
             objects[cell].tiles = &own.uvAtlas->tiles;
             objects[cell].seen = own.seen;
         }
         if (!drawn) return {nullptr, std::move(objects), holdsAtlas};
         // The callback is looked up at execution.
-        const auto spreadOne = [own = drawn] {
-            if (own->spreadOne) own->spreadOne();
+        const auto objectDiffused = [own = drawn] {
+            if (own->objectDiffused) own->objectDiffused();
         };
-        return {drawn->diffusionMemory, std::move(objects), holdsAtlas, spreadOne};
+        return {drawn->diffusionMemory, std::move(objects), holdsAtlas, objectDiffused};
     }
 
     /// Adds diffusion passes for objects, each lit as a separate view. Skips objects whose visible tiles are up to
     /// date.
-    TextureHandle addSpreadLight(const FrameHandles& frame, const ViewSource& view, std::size_t index) {
-        const std::string name = index == 0 ? "spread_light_atlas" : fmt::format("spread_light_atlas ({})", index + 1);
-        TextureHandle atlas = graph.persist(name, DiffusionPasses::spreadLightAtlas(spec), frame::kSpreadLightRevision);
+    TextureHandle addDiffusedLight(const FrameHandles& frame, const ViewSource& view, std::size_t index) {
+        const std::string name =
+            index == 0 ? "diffused_light_atlas" : fmt::format("diffused_light_atlas ({})", index + 1);
+        TextureHandle atlas = graph.persist(name, DiffusionPasses::diffusionAtlas(spec), frame::kDiffusedLightRevision);
         frame::DiffusionSchedule schedule = diffusionSchedule(graph.holds(atlas));
-        for (std::size_t cell = 0; cell < spec.spreadingViews.size(); ++cell) {
+        for (std::size_t cell = 0; cell < spec.diffusionViews.size(); ++cell) {
             if (schedule.leaves(cell)) continue;
-            const frame::DrawnView::SpreadingView* const own = drawn ? &drawn->spreadingViews[cell] : nullptr;
-            const ViewSource object{view.technique, spec.spreadingViews[cell], own ? &own->drawn : nullptr};
+            const frame::DrawnView::DiffusionView* const own = drawn ? &drawn->diffusionViews[cell] : nullptr;
+            const ViewSource object{view.technique, spec.diffusionViews[cell], own ? &own->drawn : nullptr};
             const ViewWiring wiring(graph, frame, object, numberOfObject(index, cell));
             const DiffusionPasses::Light light = DiffusionPasses::kept(graph, spec, index, cell);
-            const bool holdsLight = graph.holds(light.entering) && graph.holds(light.unspread);
+            const bool holdsLight = graph.holds(light.entering) && graph.holds(light.undiffused);
             const DiffusionPasses::Params params{cell, schedule.next(cell, holdsLight)};
             const DiffusionPasses::Inputs inputs{wiring.surfaces, wiring.lighting, atlas, light,
                                                  own ? own->uvAtlas : nullptr};
-            atlas = DiffusionPasses::add(graph, spec, params, inputs).spreadLightAtlas;
+            atlas = DiffusionPasses::add(graph, spec, params, inputs).diffusionAtlas;
         }
         return atlas;
     }

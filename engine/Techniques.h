@@ -69,12 +69,12 @@ struct AfterOpaque {
         add;
 };
 
-/// Objects with diffusion are lit as separate views (frame::DrawnView::SpreadingView), numbered after the frame's
-/// views, which are fewer than kMostSpreadingObjects.
-constexpr std::size_t kMostSpreadingObjects = 4096; ///< per view
-constexpr double kMostSpreadLightGibibytes = 2.0;   ///< of a view's diffused irradiance atlas
+/// Objects with diffusion are lit as separate views (frame::DrawnView::DiffusionView), numbered after the frame's
+/// views, which are fewer than kMostDiffusionObjects.
+constexpr std::size_t kMostDiffusionObjects = 4096; ///< per view
+constexpr double kMostDiffusionGibibytes = 2.0;     ///< of a view's diffused irradiance atlas
 constexpr std::size_t numberOfObject(std::size_t view, std::size_t cell) {
-    return kMostSpreadingObjects * (view + 1) + cell;
+    return kMostDiffusionObjects * (view + 1) + cell;
 }
 
 /// The inputs of a view's declaration.

@@ -38,8 +38,8 @@ shader::ProgramDesc fillProgram() {
 shader::ProgramDesc storeProgram(bool sums) {
     return shader::screenProgram("diffusion_store", "passes/diffusion_store.frag", {{"SUMS", sums ? "1" : "0"}});
 }
-shader::ProgramDesc spreadProgram(bool alongV) {
-    return shader::screenProgram(alongV ? "diffusion_along_v" : "diffusion_along_u", "passes/diffusion_spread.frag",
+shader::ProgramDesc blurProgram(bool alongV) {
+    return shader::screenProgram(alongV ? "diffusion_along_v" : "diffusion_along_u", "passes/diffusion_blur.frag",
                                  {{"SUMS", alongV ? "1" : "0"}});
 }
 
@@ -71,25 +71,26 @@ struct Object {
                 const std::function<void()>& done) const;
 
     /// Irradiance diffused by the levels so far, and its weighted sum over levels; no sum before the first level.
-    struct Spread {
+    struct Diffused {
         TextureHandle light;
         std::optional<TextureHandle> sum;
     };
-    Spread spread(std::size_t level, const Spread& before, const frame::DiffusionWork::Level& tiles) const;
+    Diffused diffuse(std::size_t level, const Diffused& before, const frame::DiffusionWork::Level& tiles) const;
     /// Stores the result in the object's cell of the diffused irradiance atlas, and the cell's constants.
-    TextureHandle store(const Spread& spread, TextureHandle unspread, TextureHandle spreadLightAtlas,
-                        const frame::SpreadLightAtlas& cells, std::size_t cell, const frame::TileSet& tiles,
+    TextureHandle store(const Diffused& diffused, TextureHandle undiffused, TextureHandle diffusionAtlas,
+                        const frame::DiffusionAtlas& cells, std::size_t cell, const frame::TileSet& tiles,
                         const std::function<void()>& done) const;
     /// Marks tiles of the cell as unknown, with alpha 0.
-    TextureHandle blank(TextureHandle spreadLightAtlas, const frame::SpreadLightAtlas& cells, std::size_t cell,
+    TextureHandle blank(TextureHandle diffusionAtlas, const frame::DiffusionAtlas& cells, std::size_t cell,
                         const frame::TileSet& tiles, const std::function<void()>& done) const;
 
 private:
-    /// The constants of a cell: SpreadLightAtlas::ofCell().
-    glm::vec4 cellValues(const frame::SpreadLightAtlas& cells) const {
-        return {glm::vec3(spec.spread->inPixels), float(frame::borderTexels(spec.gutterTexels, cells.sideTexels))};
+    /// The constants of a cell: DiffusionAtlas::ofCell().
+    glm::vec4 cellValues(const frame::DiffusionAtlas& cells) const {
+        return {glm::vec3(spec.diffusionKernel->inPixels),
+                float(frame::borderTexels(spec.gutterTexels, cells.sideTexels))};
     }
-    Rectangles rectanglesIn(const frame::SpreadLightAtlas& cells, std::size_t cell, const frame::TileSet& tiles) const {
+    Rectangles rectanglesIn(const frame::DiffusionAtlas& cells, std::size_t cell, const frame::TileSet& tiles) const {
         const glm::ivec2 corner = cells.corner(int(cell));
         Rectangles rectangles = rectanglesOf(tiles);
         for (gpu::Rectangle& rectangle : rectangles) {
@@ -99,7 +100,7 @@ private:
         return rectangles;
     }
     Rectangles rectanglesOf(const frame::TileSet& tiles) const {
-        return tiles.rectangles(frame::kDiffusionTileTexels, spec.spreadTexels());
+        return tiles.rectangles(frame::kDiffusionTileTexels, spec.diffusionTexels());
     }
     Light halve(Light whole, Light halved, const frame::TileSet& tiles) const;
     TextureHandle fill(const std::string& name, TextureHandle light, const frame::TileSet& tiles) const;
@@ -114,7 +115,7 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, Light light, 
         TextureHandle mask;
     };
     const int side = spec.settings.sizePixels.x;
-    const bool isHalved = side != spec.spreadTexels();
+    const bool isHalved = side != spec.diffusionTexels();
     const Light lit =
         graph
             .addPass<Data>(
@@ -125,15 +126,15 @@ Object::Light Object::light(const DiffusionPasses::Inputs& inputs, Light light, 
                     out.lighting = inputs.lighting.read(pass);
                     if (isHalved)
                         out.light = {pass.create("whole_entering_light", square(side)),
-                                     pass.create("whole_unspread_light", square(side))};
+                                     pass.create("whole_undiffused_light", square(side))};
                     else
-                        out.light = {pass.write(light.entering), pass.write(light.unspread)};
+                        out.light = {pass.write(light.entering), pass.write(light.undiffused)};
                     out.mask = pass.create("diffusion_mask", square(side, graph::Format::Depth32Float),
                                            Access::DepthAttachment);
                 },
                 [side, done, rectangles = tiles.rectangles(frame::kDiffusionTileTexels * (isHalved ? 2 : 1), side),
-                 constants = shared::DiffusionLightConstants{glm::vec4(spec.spread->inPixels, 0.0),
-                                                             glm::vec4(spec.spread->inTexels, 0.0)}](
+                 constants = shared::DiffusionLightConstants{glm::vec4(spec.diffusionKernel->inPixels, 0.0),
+                                                             glm::vec4(spec.diffusionKernel->inTexels, 0.0)}](
                     const Data& out, const graph::PassContext& context) {
                     context.bindTargets();
                     // No fragment passes the test against depth 1.
@@ -168,15 +169,15 @@ Object::Light Object::halve(Light whole, Light halved, const frame::TileSet& til
             "diffusion_halve" + suffix,
             [&](graph::PassBuilder& pass, Data& out) {
                 pass.program(halveProgram());
-                out.whole = {pass.read(whole.entering), pass.read(whole.unspread)};
-                out.halved = {pass.write(halved.entering), pass.write(halved.unspread)};
+                out.whole = {pass.read(whole.entering), pass.read(whole.undiffused)};
+                out.halved = {pass.write(halved.entering), pass.write(halved.undiffused)};
             },
             [rectangles = rectanglesOf(tiles)](const Data& out, const graph::PassContext& context) {
                 context.bindTargets();
                 gpu::useProgram(context.program());
                 gpu::setState({});
                 gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(out.whole.entering));
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNSPREAD, context.texture(out.whole.unspread));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNDIFFUSED, context.texture(out.whole.undiffused));
                 drawWithin(rectangles);
             })
         .halved;
@@ -194,7 +195,7 @@ TextureHandle Object::fill(const std::string& name, TextureHandle light, const f
                 out.steps = pass.read(steps);
                 out.continued = pass.read(continued);
                 out.light = pass.read(light);
-                out.filled = pass.create("filled_light", square(spec.spreadTexels()));
+                out.filled = pass.create("filled_light", square(spec.diffusionTexels()));
             },
             [rectangles = rectanglesOf(tiles)](const Data& out, const graph::PassContext& context) {
                 context.bindTargets();
@@ -208,11 +209,11 @@ TextureHandle Object::fill(const std::string& name, TextureHandle light, const f
         .filled;
 }
 
-TextureHandle Object::store(const Spread& spread, TextureHandle unspread, TextureHandle spreadLightAtlas,
-                            const frame::SpreadLightAtlas& cells, std::size_t cell, const frame::TileSet& tiles,
+TextureHandle Object::store(const Diffused& diffused, TextureHandle undiffused, TextureHandle diffusionAtlas,
+                            const frame::DiffusionAtlas& cells, std::size_t cell, const frame::TileSet& tiles,
                             const std::function<void()>& done) const {
     struct Data {
-        TextureHandle steps, continued, unspread, spreadLightAtlas;
+        TextureHandle steps, continued, undiffused, diffusionAtlas;
         std::optional<TextureHandle> sum;
     };
     const glm::ivec2 corner = cells.corner(int(cell)), ofCell = cells.ofCell(int(cell));
@@ -220,12 +221,12 @@ TextureHandle Object::store(const Spread& spread, TextureHandle unspread, Textur
         .addPass<Data>(
             "diffusion_store" + suffix,
             [&](graph::PassBuilder& pass, Data& out) {
-                pass.program(storeProgram(spread.sum.has_value()));
+                pass.program(storeProgram(diffused.sum.has_value()));
                 out.steps = pass.read(steps);
                 out.continued = pass.read(continued);
-                out.unspread = pass.read(unspread);
-                if (spread.sum) out.sum = pass.read(*spread.sum);
-                out.spreadLightAtlas = pass.write(spreadLightAtlas);
+                out.undiffused = pass.read(undiffused);
+                if (diffused.sum) out.sum = pass.read(*diffused.sum);
+                out.diffusionAtlas = pass.write(diffusionAtlas);
             },
             [corner, ofCell, done, rectangles = rectanglesIn(cells, cell, tiles),
              values = cellValues(cells)](const Data& out, const graph::PassContext& context) {
@@ -235,25 +236,25 @@ TextureHandle Object::store(const Spread& spread, TextureHandle unspread, Textur
                 context.constants(UNIFORM_PASS, shared::DiffusionStoreConstants{glm::uvec4(corner, 0, 0)});
                 gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_STEPS, context.texture(out.steps));
                 gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_CONTINUED, context.texture(out.continued));
-                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNSPREAD, context.texture(out.unspread));
+                gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_UNDIFFUSED, context.texture(out.undiffused));
                 if (out.sum) gpu::bindTexture(TEXTURE_UNIT_DIFFUSION_LIGHT, context.texture(*out.sum));
                 drawWithin(rectangles);
                 gpu::setScissor({ofCell.x, ofCell.y, 1, 1});
                 gpu::clearColor(0, values);
                 if (done) done();
             })
-        .spreadLightAtlas;
+        .diffusionAtlas;
 }
 
-TextureHandle Object::blank(TextureHandle spreadLightAtlas, const frame::SpreadLightAtlas& cells, std::size_t cell,
+TextureHandle Object::blank(TextureHandle diffusionAtlas, const frame::DiffusionAtlas& cells, std::size_t cell,
                             const frame::TileSet& tiles, const std::function<void()>& done) const {
     struct Data {
-        TextureHandle spreadLightAtlas;
+        TextureHandle diffusionAtlas;
     };
     return graph
         .addPass<Data>(
             "diffusion_blank" + suffix,
-            [&](graph::PassBuilder& pass, Data& out) { out.spreadLightAtlas = pass.write(spreadLightAtlas); },
+            [&](graph::PassBuilder& pass, Data& out) { out.diffusionAtlas = pass.write(diffusionAtlas); },
             [ofCell = cells.ofCell(int(cell)), done, rectangles = rectanglesIn(cells, cell, tiles),
              values = cellValues(cells)](const Data&, const graph::PassContext& context) {
                 context.bindTargets();
@@ -265,24 +266,24 @@ TextureHandle Object::blank(TextureHandle spreadLightAtlas, const frame::SpreadL
                 gpu::clearColor(0, values);
                 done();
             })
-        .spreadLightAtlas;
+        .diffusionAtlas;
 }
 
-Object::Spread Object::spread(std::size_t number, const Spread& before,
-                              const frame::DiffusionWork::Level& tiles) const {
+Object::Diffused Object::diffuse(std::size_t number, const Diffused& before,
+                                 const frame::DiffusionWork::Level& tiles) const {
     struct Data {
-        TextureHandle steps, light, spread;
+        TextureHandle steps, light, diffused;
         std::optional<TextureHandle> sum;
     };
-    const frame::DiffusionLevel& level = spec.spread->levels[number];
-    const frame::LevelReach reach = frame::levelReach(*spec.spread, number);
+    const frame::DiffusionLevel& level = spec.diffusionKernel->levels[number];
+    const frame::LevelReach reach = frame::levelReach(*spec.diffusionKernel, number);
     const auto constants = [&](bool alongV) {
-        return shared::DiffusionSpreadConstants{
+        return shared::DiffusionBlurConstants{
             glm::vec4(float(reach.toSquareMetres), alongV ? 1.0f : 0.0f, float(reach.fromSquareMetres), 0.0f),
             glm::vec4(glm::vec3(level.weight), float(frame::texelVariance(spec.settings.diffusion.half)))};
     };
     const auto run = [](const Data& out, const graph::PassContext& context, const Rectangles& rectangles,
-                        const shared::DiffusionSpreadConstants& values, const gpu::PipelineState& state) {
+                        const shared::DiffusionBlurConstants& values, const gpu::PipelineState& state) {
         gpu::useProgram(context.program());
         gpu::setState(state);
         context.constants(UNIFORM_PASS, values);
@@ -291,29 +292,31 @@ Object::Spread Object::spread(std::size_t number, const Spread& before,
         drawWithin(rectangles);
     };
     const TextureHandle filled = fill(fmt::format("diffusion_fill {}", number + 1), before.light, tiles.fill);
-    const TextureHandle alongU = graph
-                                     .addPass<Data>(
-                                         fmt::format("diffusion_along_u {}{}", number + 1, suffix),
-                                         [&](graph::PassBuilder& pass, Data& out) {
-                                             pass.program(spreadProgram(false));
-                                             out.steps = pass.read(steps);
-                                             out.light = pass.read(filled);
-                                             out.spread = pass.create("light_along_u", square(spec.spreadTexels()));
-                                         },
-                                         [run, rectangles = rectanglesOf(tiles.alongU), values = constants(false)](
-                                             const Data& out, const graph::PassContext& context) {
-                                             context.bindTargets();
-                                             run(out, context, rectangles, values, {});
-                                         })
-                                     .spread;
+    const TextureHandle alongU =
+        graph
+            .addPass<Data>(
+                fmt::format("diffusion_along_u {}{}", number + 1, suffix),
+                [&](graph::PassBuilder& pass, Data& out) {
+                    pass.program(blurProgram(false));
+                    out.steps = pass.read(steps);
+                    out.light = pass.read(filled);
+                    out.diffused = pass.create("light_along_u", square(spec.diffusionTexels()));
+                },
+                [run, rectangles = rectanglesOf(tiles.alongU),
+                 values = constants(false)](const Data& out, const graph::PassContext& context) {
+                    context.bindTargets();
+                    run(out, context, rectangles, values, {});
+                })
+            .diffused;
     const Data done = graph.addPass<Data>(
         fmt::format("diffusion_along_v {}{}", number + 1, suffix),
         [&](graph::PassBuilder& pass, Data& out) {
-            pass.program(spreadProgram(true));
+            pass.program(blurProgram(true));
             out.steps = pass.read(steps);
             out.light = pass.read(alongU);
-            out.spread = pass.create("spread_light", square(spec.spreadTexels()));
-            out.sum = before.sum ? pass.write(*before.sum) : pass.create("sum_of_light", square(spec.spreadTexels()));
+            out.diffused = pass.create("diffused_light", square(spec.diffusionTexels()));
+            out.sum =
+                before.sum ? pass.write(*before.sum) : pass.create("sum_of_light", square(spec.diffusionTexels()));
         },
         [run, isFirst = !before.sum, rectangles = rectanglesOf(tiles.alongV),
          values = constants(true)](const Data& out, const graph::PassContext& context) {
@@ -323,36 +326,36 @@ Object::Spread Object::spread(std::size_t number, const Spread& before,
             state.blend = gpu::Blend::Additive;
             run(out, context, rectangles, values, state);
         });
-    return {done.spread, done.sum};
+    return {done.diffused, done.sum};
 }
 
 } // namespace
 
-graph::TextureDesc DiffusionPasses::spreadLightAtlas(const frame::FrameSpec& view) {
-    const glm::ivec2 texels = view.spreadLightAtlas().texels();
+graph::TextureDesc DiffusionPasses::diffusionAtlas(const frame::FrameSpec& view) {
+    const glm::ivec2 texels = view.diffusionAtlas().texels();
     return {kFormat, texels.x, texels.y};
 }
 
 std::array<std::string, 2> DiffusionPasses::keptNames(std::size_t view, std::size_t cell) {
     const std::string suffix = suffixOf(cell) + (view == 0 ? "" : fmt::format(" ({})", view + 1));
-    return {"entering_light" + suffix, "unspread_light" + suffix};
+    return {"entering_light" + suffix, "undiffused_light" + suffix};
 }
 
 DiffusionPasses::Light DiffusionPasses::kept(graph::Graph& graph, const frame::FrameSpec& view, std::size_t viewNumber,
                                              std::size_t cell) {
-    const graph::TextureDesc desc = square(view.spreadingViews[cell].spreadTexels());
-    const auto [entering, unspread] = keptNames(viewNumber, cell);
-    return {graph.persist(entering, desc, frame::kSpreadLightRevision),
-            graph.persist(unspread, desc, frame::kSpreadLightRevision)};
+    const graph::TextureDesc desc = square(view.diffusionViews[cell].diffusionTexels());
+    const auto [entering, undiffused] = keptNames(viewNumber, cell);
+    return {graph.persist(entering, desc, frame::kDiffusedLightRevision),
+            graph.persist(undiffused, desc, frame::kDiffusedLightRevision)};
 }
 
 DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::FrameSpec& view, const Params& params,
                                               const Inputs& inputs) {
     const frame::DiffusionTask& task = params.task;
     const frame::DiffusionWork& work = task.work;
-    const frame::FrameSpec& spec = view.spreadingViews[params.cell];
-    const frame::SpreadLightAtlas cells = view.spreadLightAtlas();
-    const int side = spec.spreadTexels();
+    const frame::FrameSpec& spec = view.diffusionViews[params.cell];
+    const frame::DiffusionAtlas cells = view.diffusionAtlas();
+    const int side = spec.diffusionTexels();
     Object object{graph, spec, suffixOf(params.cell), {}, {}};
     object.steps = graph.import("diffusion_steps" + object.suffix, square(side),
                                 inputs.uvAtlas ? &inputs.uvAtlas->steps : nullptr);
@@ -360,20 +363,20 @@ DiffusionPasses::Outputs DiffusionPasses::add(graph::Graph& graph, const frame::
                                     inputs.uvAtlas ? &inputs.uvAtlas->continued : nullptr);
     Light light = inputs.light;
     if (task.lights) light = object.light(inputs, light, work.light, task.lit);
-    TextureHandle written = inputs.spreadLightAtlas;
+    TextureHandle written = inputs.diffusionAtlas;
     if (!work.blank.isEmpty()) written = object.blank(written, cells, params.cell, work.blank, task.blanked);
-    if (!task.spreads) {
+    if (!task.diffuses) {
         // Kept for a later frame.
         if (task.lights) {
             graph.output(light.entering);
-            graph.output(light.unspread);
+            graph.output(light.undiffused);
         }
         return {written};
     }
-    Object::Spread spread{light.entering, {}};
+    Object::Diffused diffused{light.entering, {}};
     for (std::size_t level = 0; level < work.levels.size(); ++level)
-        spread = object.spread(level, spread, work.levels[level]);
-    return {object.store(spread, light.unspread, written, cells, params.cell, work.store, task.stored)};
+        diffused = object.diffuse(level, diffused, work.levels[level]);
+    return {object.store(diffused, light.undiffused, written, cells, params.cell, work.store, task.stored)};
 }
 
 } // namespace tessera::passes

@@ -43,7 +43,7 @@ float mostSlopeBias(const shared::ViewConstants& face) {
 std::vector<shader::ProgramDesc> ShadowMapsPass::programs(const frame::FrameSpec& spec) {
     frame::FrameSpec ofMaps = spec;
     ofMaps.samples = 1;
-    ofMaps.spread.reset(); // lights see an object's geometry, not its UV atlas
+    ofMaps.diffusionKernel.reset(); // lights see an object's geometry, not its UV atlas
     return frame::depthPrograms(ofMaps, "shadow_maps", "passes/depth_prepass.frag", true, {{"SHADING_DEPTH", "0"}});
 }
 

@@ -136,21 +136,21 @@ private:
 py::object benchScenes(const py::handle& scenes, const py::object& matrix, const py::object& against,
                        const py::object& frames, const py::object& output, bool resume, const py::object& progress,
                        const py::kwargs& keywords) {
-    BenchWishes wishes;
-    takeKeywords(keywords, "bench", wishes.options.frame,
+    BenchRequest request;
+    takeKeywords(keywords, "bench", request.options.frame,
                  {"matrix", "against", "frames", "output", "resume", "progress"});
-    wishes.options.scenes = pathsOf(scenes, "scenes");
-    if (wishes.options.scenes.empty()) throw InputError("bench needs a scene to measure");
-    if (!matrix.is_none()) wishes.matrix = py::module_::import("json").attr("dumps")(matrix).cast<std::string>();
-    if (!against.is_none()) wishes.options.against = pathOf(against, "against");
-    wishes.options.frames = wholeNumberOf(frames, "frames");
+    request.options.scenes = pathsOf(scenes, "scenes");
+    if (request.options.scenes.empty()) throw InputError("bench needs a scene to measure");
+    if (!matrix.is_none()) request.matrix = py::module_::import("json").attr("dumps")(matrix).cast<std::string>();
+    if (!against.is_none()) request.options.against = pathOf(against, "against");
+    request.options.frames = wholeNumberOf(frames, "frames");
     if (resume && output.is_none()) throw InputError("resume needs output: the folder of the run to go on with");
-    wishes.resumes = resume;
-    wishes.command = "tessera.bench() of Python";
+    request.resumes = resume;
+    request.command = "tessera.bench() of Python";
     const BenchFolder folder(output);
-    wishes.folder = folder.path();
+    request.folder = folder.path();
     std::string json;
-    Worker::get().run(progress, [&](Job& job) { json = benchJson(wishes, job); });
+    Worker::get().run(progress, [&](Job& job) { json = benchJson(request, job); });
     return parsedJson(json);
 }
 
@@ -274,7 +274,7 @@ names what to show. progress(done, expected) is called where the work has steps.
                py::arg("against") = "forward", py::arg("progress") = py::none(),
                R"(compare(scene, *, techniques=None, against='forward', progress=None, **keywords) -> dict
 
-Renders the scene with several techniques, all unless told, and measures how they differ from the truth: a technique,
+Renders the scene with several techniques, all by default, and measures how they differ from the truth: a technique,
 'reference', or the path of a picture. The dictionary is that of tessera compare --json.)");
     module.def("plan", &planFrame, py::arg("scene"), py::kw_only(), py::arg("also") = py::tuple(),
                py::arg("measure") = false,

@@ -83,7 +83,7 @@ picture as a display does.)")
         .def_property_readonly(
             "scene", [](const Rendered& self) { return fileNameOf(self.scene); }, "Name of the scene.")
         .def_readonly("technique", &Rendered::technique, "Name of the technique.")
-        .def_readonly("view", &Rendered::view, "Name of what is shown: final, or a debug view.")
+        .def_readonly("view", &Rendered::view, "Name of the view: final, or a debug view.")
         .def_property_readonly(
             "rgba", [](const py::object& self) { return channelsOf(self, 0, 4); },
             "float32, height x width x 4: linear Rec.709 radiance before exposure, or the values of a debug view; A is "

@@ -73,8 +73,8 @@ void LoadedScene::pose(const std::string& file) {
 }
 
 SceneObject::SceneObject(app::FrameOptions options) : options_(std::move(options)), slot_(new Slot) {
-    static std::once_flag isTold;
-    std::call_once(isTold, [] { Worker::get().atEnd([] { Slot::dropAll(); }); });
+    static std::once_flag isRegistered;
+    std::call_once(isRegistered, [] { Worker::get().atEnd([] { Slot::dropAll(); }); });
 }
 
 SceneObject::~SceneObject() {

@@ -49,10 +49,10 @@ engine::Renderer& readyRenderer(LoadedScene& loaded, gpu::Context& context) {
 Rendered renderReference(LoadedScene& loaded, const app::FrameOptions& options, Job& job) {
     app::Request& request = loaded.request;
     app::settleForReference(options, request.settings);
-    for (const std::string& text : app::unheededByReference(options, request)) spdlog::warn("{}", text);
+    for (const std::string& text : app::unusedByReference(options, request)) spdlog::warn("{}", text);
     job.expect(std::size_t(request.settings.sizePixels.y));
     const auto rowDone = [&job] { job.advance(); };
-    constexpr auto kNone = validation::Leeway::None;
+    constexpr auto kNone = validation::Alternatives::None;
     Rendered rendered;
     rendered.picture =
         request.scene.hook
@@ -67,12 +67,12 @@ Rendered renderReference(LoadedScene& loaded, const app::FrameOptions& options, 
 
 /// Renders a frame and counts diffused objects as steps of the job. The renderer outlives the job, so the callback is
 /// removed even on exceptions.
-engine::RenderedFrame renderTelling(engine::Renderer& renderer, const engine::ViewRequest& request, Job& job) {
-    struct Telling {
+engine::RenderedFrame renderReporting(engine::Renderer& renderer, const engine::ViewRequest& request, Job& job) {
+    struct Reporting {
         engine::Renderer& renderer;
-        ~Telling() { renderer.tellSpread({}); }
-    } const telling{renderer};
-    renderer.tellSpread([&job](std::size_t done, std::size_t objects) {
+        ~Reporting() { renderer.reportDiffusion({}); }
+    } const reporting{renderer};
+    renderer.reportDiffusion([&job](std::size_t done, std::size_t objects) {
         if (done == 0)
             job.expect(objects);
         else
@@ -83,19 +83,19 @@ engine::RenderedFrame renderTelling(engine::Renderer& renderer, const engine::Vi
 
 Rendered renderByContext(LoadedScene& loaded, const app::FrameOptions& options, Job& job) {
     app::Request& request = loaded.request;
-    engine::requireTaken(request);
+    engine::requireSupported(request);
     request.settings.display = true;
     engine::Renderer& renderer = readyRenderer(loaded, Worker::get().context());
-    const engine::RenderedFrame frame = renderTelling(renderer, request, job);
+    const engine::RenderedFrame frame = renderReporting(renderer, request, job);
     const engine::DrawnShadows shadows = renderer.shadows();
     const std::string& name = request.scene.name;
     warnAbout(name, renderer.missingTextures());
-    warnAbout(name, renderer.unseenSpread());
+    warnAbout(name, renderer.invisibleDiffusion());
     warnAbout(name, app::faultOf(request.scene, request.settings.view, frame.radiance, shadows.cut));
     warnAbout(name, shadows.missing);
-    for (const std::string& text : app::unheededSettings(
-             options, request, engine::prepareView(request.scene, request.technique, request.settings),
-             {&request.technique, 1}))
+    for (const std::string& text :
+         app::unusedSettings(options, request, engine::prepareView(request.scene, request.technique, request.settings),
+                             {&request.technique, 1}))
         spdlog::warn("{}", text);
     Rendered rendered;
     rendered.picture = engine::toPicture(frame);
@@ -136,7 +136,7 @@ std::string compareJson(SceneObject& scene, const app::ComparisonOptions& option
 std::string planJson(SceneObject& scene, const app::PlanningOptions& options, Job& job) {
     app::requirePlan(options);
     LoadedScene& loaded = scene.resolved(options.frame, job);
-    engine::requireTaken(loaded.request);
+    engine::requireSupported(loaded.request);
     app::warnOfPlan(options, loaded.request);
     if (!options.measure) return graph::planJson(app::planOf(options, loaded.request));
     return orDrop(scene, [&] {
@@ -145,27 +145,27 @@ std::string planJson(SceneObject& scene, const app::PlanningOptions& options, Jo
     });
 }
 
-std::string benchJson(const BenchWishes& wishes, Job& job) {
+std::string benchJson(const BenchRequest& request, Job& job) {
     validation::BenchMatrix matrix;
-    if (!wishes.matrix.empty()) {
-        scenes::LoadLedger ledger(app::loadOptionsOf(wishes.options.frame).memoryLimitBytes);
-        matrix = validation::parseMatrix(wishes.matrix, "matrix", ledger);
+    if (!request.matrix.empty()) {
+        scenes::LoadLedger ledger(app::loadOptionsOf(request.options.frame).memoryLimitBytes);
+        matrix = validation::parseMatrix(request.matrix, "matrix", ledger);
     }
     app::Outputs outputs;
-    app::addBenchFiles(wishes.folder, outputs);
-    app::BenchRun run = app::benchRunOf(wishes.options, std::move(matrix),
+    app::addBenchFiles(request.folder, outputs);
+    app::BenchRun run = app::benchRunOf(request.options, std::move(matrix),
                                         [&](const std::vector<std::string>& files) { outputs.reads(files); });
     gpu::Context& context = Worker::get().context();
     app::settleOn(context.capabilities(), run.plan);
-    validation::RunIdentity identity = app::identityOf(wishes.options, context.capabilities(), run);
-    identity.command = wishes.command;
-    const validation::BenchStore store(wishes.folder, identity, run.plan,
-                                       wishes.resumes ? validation::EarlierRun::Resume : validation::EarlierRun::Keep);
-    run.write = [&](const validation::BenchRecord& record) { app::writeBenchFiles(outputs, wishes.folder, record); };
+    validation::RunIdentity identity = app::identityOf(request.options, context.capabilities(), run);
+    identity.command = request.command;
+    const validation::BenchStore store(request.folder, identity, run.plan,
+                                       request.resumes ? validation::EarlierRun::Resume : validation::EarlierRun::Keep);
+    run.write = [&](const validation::BenchRecord& record) { app::writeBenchFiles(outputs, request.folder, record); };
     run.options.progress = [&job](std::size_t steps) { job.advance(steps); };
     job.expect(app::stepsOf(context.capabilities(), store, run));
     const validation::BenchRecord record = app::measureMissing(context, store, std::move(run));
-    app::writeBenchFiles(outputs, wishes.folder, record);
+    app::writeBenchFiles(outputs, request.folder, record);
     return validation::benchJson(record);
 }
 

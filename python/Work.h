@@ -29,7 +29,7 @@ std::string compareJson(SceneObject& scene, const app::ComparisonOptions& option
 std::string planJson(SceneObject& scene, const app::PlanningOptions& options, Job& job);
 
 /// Parameters of a benchmark.
-struct BenchWishes {
+struct BenchRequest {
     app::BenchJobOptions options;
     std::string matrix; ///< JSON; empty: none
     std::string folder; ///< must exist
@@ -37,7 +37,7 @@ struct BenchWishes {
     std::string command; ///< its name in the record
 };
 /// The JSON that `tessera bench` writes into bench.json.
-std::string benchJson(const BenchWishes& wishes, Job& job);
+std::string benchJson(const BenchRequest& request, Job& job);
 
 SceneFacts load(SceneObject& scene, Job& job);
 

@@ -103,11 +103,11 @@ void Worker::run(const py::object& progress, const std::function<void(Job&)>& wo
         changed_.notify_all();
     }
     std::exception_ptr raised;
-    std::size_t told = 0;
-    const auto tell = [&] {
+    std::size_t reported = 0;
+    const auto report = [&] {
         const std::size_t expected = task->job.expected(), done = std::min(task->job.done(), expected);
-        if (progress.is_none() || expected == 0 || done == told) return;
-        told = done;
+        if (progress.is_none() || expected == 0 || done == reported) return;
+        reported = done;
         progress(done, expected);
     };
     const auto isDone = [&] {
@@ -118,7 +118,7 @@ void Worker::run(const py::object& progress, const std::function<void(Job&)>& wo
         if (raised) continue;
         try {
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-            tell();
+            report();
         } catch (py::error_already_set&) {
             raised = std::current_exception();
             task->job.requestStop();
@@ -126,7 +126,7 @@ void Worker::run(const py::object& progress, const std::function<void(Job&)>& wo
     }
     if (raised) std::rethrow_exception(raised);
     if (task->error) std::rethrow_exception(task->error);
-    tell();
+    report();
     warn(task->warnings);
 }
 

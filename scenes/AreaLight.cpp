@@ -173,11 +173,11 @@ double surfaceReachMetres(const Light& light) {
     }
 }
 
-std::optional<glm::dvec3> acrossFrom(const glm::dvec3& direction, const glm::dvec3& wish) {
-    const double along = glm::dot(wish, direction);
+std::optional<glm::dvec3> acrossFrom(const glm::dvec3& direction, const glm::dvec3& preferred) {
+    const double along = glm::dot(preferred, direction);
     // A vector that is perpendicular up to rounding is returned unchanged.
-    if (std::abs(along) < 4e-16) return wish;
-    const glm::dvec3 across = wish - along * direction;
+    if (std::abs(along) < 4e-16) return preferred;
+    const glm::dvec3 across = preferred - along * direction;
     constexpr double kLeastAcross = 1e-6; // half of the digits are left
     const double length = glm::length(across);
     if (!(length > kLeastAcross)) return {};

@@ -37,9 +37,9 @@ double largestSeenArea(const Light& light);
 /// Radius in metres of the bounding sphere of the light's surface, centred at its position.
 double surfaceReachMetres(const Light& light);
 
-/// The unit vector perpendicular to unit vector `direction` that is nearest to unit vector `wish`; nothing if the two
-/// are parallel.
-std::optional<glm::dvec3> acrossFrom(const glm::dvec3& direction, const glm::dvec3& wish);
+/// The unit vector perpendicular to unit vector `direction` that is nearest to unit vector `preferred`; nothing if the
+/// two are parallel.
+std::optional<glm::dvec3> acrossFrom(const glm::dvec3& direction, const glm::dvec3& preferred);
 
 /// Default of Light::alongWS: a unit vector perpendicular to a unit direction, horizontal unless the direction is
 /// vertical, else near +X.

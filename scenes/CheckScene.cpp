@@ -44,7 +44,7 @@ void checkMaterial(const CheckedElement& element, const Material& material, std:
     });
     const std::string profile = profileProblem(material.subsurface.profile);
     element.require(profile.empty(), profile);
-    element.require(takesMasking(material.model, material.masking),
+    element.require(supportsMasking(material.model, material.masking),
                     "masking by direction needs the model microfacet_anisotropic");
     for (const TextureUse& use : material.textures) {
         if (use.image == kNone) continue;
@@ -168,9 +168,9 @@ void checkSceneWide(const Scene& scene) {
                                                          subsurfaces, kMostSubsurfaces));
     checkHook(scene);
     const SceneOptions& options = scene.options;
-    for (const auto& [key, wish] : options.wishes) {
-        const auto* const number = std::get_if<double>(&wish);
-        const auto* const list = std::get_if<std::vector<double>>(&wish);
+    for (const auto& [key, option] : options.requested) {
+        const auto* const number = std::get_if<double>(&option);
+        const auto* const list = std::get_if<std::vector<double>>(&option);
         const bool areFinite = list == nullptr || std::ranges::all_of(*list, [](double n) { return std::isfinite(n); });
         require((number == nullptr || std::isfinite(*number)) && areFinite,
                 fmt::format("the option {} is not finite", key));

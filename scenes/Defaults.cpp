@@ -29,8 +29,8 @@ std::string studioSource() {
 
 const Camera& viewedCamera(const Scene& scene) {
     assert(!scene.cameras.empty());
-    const std::optional<std::string>& wish = scene.options.camera;
-    return scene.cameras[wish ? cameraCalled(scene, *wish).value_or(0) : 0];
+    const std::optional<std::string>& requested = scene.options.camera;
+    return scene.cameras[requested ? cameraCalled(scene, *requested).value_or(0) : 0];
 }
 
 /// Rotation of a built-in studio around the scene's camera, matching its place around a default camera, which looks
@@ -44,10 +44,10 @@ float degreesAroundCamera(const Scene& scene) {
 }
 
 /// Aspect of the size requested by the scene's options, else of most screens.
-double aspectWished(const Scene& scene) {
-    const auto wish = scene.options.wishes.find("size");
-    if (wish != scene.options.wishes.end())
-        if (const auto* size = std::get_if<std::vector<double>>(&wish->second))
+double requestedAspect(const Scene& scene) {
+    const auto requested = scene.options.requested.find("size");
+    if (requested != scene.options.requested.end())
+        if (const auto* size = std::get_if<std::vector<double>>(&requested->second))
             if (size->size() == 2 && size->at(0) >= 1.0 && size->at(1) >= 1.0) return size->at(0) / size->at(1);
     return 16.0 / 9.0;
 }
@@ -61,21 +61,21 @@ bool isAllUnlit(const Scene& scene) {
 }
 
 /// Sets an option that the scene's file does not request; returns whether it was set.
-bool supplyWish(Scene& scene, const char* key, Wish value) {
-    const bool isSupplied = scene.options.wishes.try_emplace(key, std::move(value)).second;
-    if (isSupplied) scene.supplied.wishes.insert(key);
+bool supplyOption(Scene& scene, const char* key, OptionValue value) {
+    const bool isSupplied = scene.options.requested.try_emplace(key, std::move(value)).second;
+    if (isSupplied) scene.supplied.requested.insert(key);
     return isSupplied;
 }
 
 void addStudio(Scene& scene, LoadLedger& ledger) {
     scene.environment = loadEnvironment(studioSource(), ledger, scene.warnings);
     scene.environment->rotationDegrees = degreesAroundCamera(scene);
-    supplyWish(scene, "backdrop", "blurred");
+    supplyOption(scene, "backdrop", "blurred");
     scene.supplied.light = true;
 }
 
 double ownLuminance(const Scene& scene, bool areMatte) {
-    return estimatedLuminance(scene, viewedCamera(scene), aspectWished(scene), areMatte).value_or(0.0);
+    return estimatedLuminance(scene, viewedCamera(scene), requestedAspect(scene), areMatte).value_or(0.0);
 }
 
 } // namespace
@@ -85,7 +85,7 @@ void addDefaultCamera(Scene& scene, std::optional<double> aspect) {
     Camera camera;
     camera.name = kDefaultName;
     camera.fovYRadians = std::numbers::pi / 4.0;
-    const Framing whole = framingOf(scene, camera.fovYRadians, aspect.value_or(aspectWished(scene)));
+    const Framing whole = framingOf(scene, camera.fovYRadians, aspect.value_or(requestedAspect(scene)));
     const std::optional<Framing> inside = framingInside(scene);
     const Framing& framing = inside ? *inside : whole;
     camera.worldFromCamera = worldFromLookAt(framing.eyeWS, framing.targetWS);
@@ -145,20 +145,20 @@ void layAs(const OwnEnvironment& own, Environment& chosen) {
 void addDefaultExposure(Scene& scene) {
     if (scene.environment || scene.lights.empty()) return;
     const int stops = fittingExposureEV(ownLuminance(scene, true));
-    if (stops != 0 && supplyWish(scene, "exposureEV", double(stops))) scene.supplied.exposureEV = stops;
+    if (stops != 0 && supplyOption(scene, "exposureEV", double(stops))) scene.supplied.exposureEV = stops;
 }
 
 void addDefaultToneMap(Scene& scene) {
-    if (!isAllUnlit(scene)) supplyWish(scene, "toneMap", "khronos_neutral");
+    if (!isAllUnlit(scene)) supplyOption(scene, "toneMap", "khronos_neutral");
 }
 
 std::string suppliedText(const Scene& scene, Advice advice) {
     const bool isOptions = advice == Advice::Options;
-    const auto& [camera, light, fillShare, replacesCameras, exposureEV, isInside, wishes] = scene.supplied;
+    const auto& [camera, light, fillShare, replacesCameras, exposureEV, isInside, requested] = scene.supplied;
     std::string lacks, given;
     if (light) {
         if (fillShare == 0.0) lacks = "no light";
-        const bool isBlurred = wishes.contains("backdrop");
+        const bool isBlurred = requested.contains("backdrop");
         const std::string besides =
             fillShare == 0.0 ? "" : fmt::format(" at {:.0f} % beside its own lights", 100.0 * fillShare);
         given = fmt::format("lit by the environment '{}'{}{} ({})", kDefaultEnvironment, besides,

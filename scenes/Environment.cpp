@@ -75,7 +75,7 @@ Image builtinMap(const std::string& name, LoadLedger& ledger) {
         names.push_back(builtin.name);
         if (builtin.name != name) continue;
         ledger.charge(kBuiltinBytes, [&] { return name; });
-        return builtin.makeMap(ledger.environmentTold());
+        return builtin.makeMap(ledger.environmentProgress());
     }
     throw InputError(fmt::format("there is no built-in environment '{}'; {}", name, suggestNames(name, names)));
 }

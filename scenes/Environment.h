@@ -54,8 +54,9 @@ glm::dvec3 directionInMap(const glm::dvec2& place);
 
 struct BuiltinEnvironment {
     std::string_view name;
-    std::string_view purpose;                                  ///< one line: what it is for
-    Image (*makeMap)(const std::function<void(double)>& told); ///< progress callback, see LoadLedger::tellEnvironment()
+    std::string_view purpose; ///< one line: what it is for
+    Image (*makeMap)(
+        const std::function<void(double)>& progress); ///< progress callback, see LoadLedger::reportEnvironment()
 };
 std::span<const BuiltinEnvironment> builtinEnvironments();
 

@@ -14,7 +14,7 @@
 namespace tessera::scenes {
 namespace {
 
-constexpr double kLeewayEV = 2.0;
+constexpr double kToleranceEV = 2.0;
 constexpr double kMostStops = 120.0; ///< range of the option --exposure
 constexpr double kBelow = 0.9;       ///< fraction of the visible area below an estimate
 /// Work limit of an estimate: number of pairs of a surface sample and a light.
@@ -180,7 +180,7 @@ std::optional<double> estimatedLuminance(const Scene& scene, const Camera& camer
 int fittingExposureEV(double luminance) {
     if (!(luminance > 0.0) || !std::isfinite(luminance)) return 0;
     const double stops = std::log2(kBrightLuminance / luminance);
-    return std::abs(stops) <= kLeewayEV ? 0 : int(std::lround(std::clamp(stops, -kMostStops, kMostStops)));
+    return std::abs(stops) <= kToleranceEV ? 0 : int(std::lround(std::clamp(stops, -kMostStops, kMostStops)));
 }
 
 } // namespace tessera::scenes

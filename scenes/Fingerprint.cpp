@@ -123,12 +123,12 @@ public:
         addAll(name, projection, worldFromCamera, fovYRadians, halfHeightMetres, nearMetres, farMetres);
     }
     void add(const SceneOptions& options) {
-        const auto& [camera, clip, defaultLight, wishes] = options;
-        addAll(camera, defaultLight, std::uint64_t(wishes.size()));
+        const auto& [camera, clip, defaultLight, requested] = options;
+        addAll(camera, defaultLight, std::uint64_t(requested.size()));
         static_cast<void>(clip); // the rig lists the active clips
-        for (const auto& [key, wish] : wishes) {
-            addAll(key, std::uint64_t(wish.index()));
-            std::visit([this](const auto& value) { add(value); }, wish);
+        for (const auto& [key, option] : requested) {
+            addAll(key, std::uint64_t(option.index()));
+            std::visit([this](const auto& value) { add(value); }, option);
         }
     }
     void add(const Environment& environment) {

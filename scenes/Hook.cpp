@@ -32,7 +32,7 @@ constexpr RefusedWord kRefusedWords[] = {
     {Refused::Word, "discard",
      "a hook makes no holes, which passes that store depth alone would not have; use an alpha mask"},
     {Refused::Word, "gl_FragDepth", "a hook moves no depth, which other passes would not move; take it out"},
-    {Refused::Beginning, "gl_", "what OpenGL says of a pixel or a vertex differs between passes; use the inputs"},
+    {Refused::Beginning, "gl_", "values of a pixel or a vertex differ between passes; use the inputs"},
     {Refused::Word, "layout", "a hook binds nothing; take it out, and declare numbers as parameters of the scene"},
     {Refused::Word, "uniform", "a hook binds nothing; declare numbers as parameters of the scene"},
     {Refused::Word, "buffer", "a hook binds nothing; take it out"},

@@ -160,18 +160,18 @@ private:
     }
 
     bool isTrue(std::span<const HookToken> condition, std::uint32_t line) {
-        std::vector<HookToken> asked, expanded;
+        std::vector<HookToken> replaced, expanded;
         for (std::size_t i = 0; i < condition.size(); ++i) {
             if (!condition[i].is("defined")) {
-                asked.push_back(condition[i]);
+                replaced.push_back(condition[i]);
                 continue;
             }
             const bool isBracketed = i + 3 < condition.size() && condition[i + 1].is("(") && condition[i + 3].is(")");
             const bool holds = isDefined(condition.subspan(i + (isBracketed ? 2 : 1)), line);
-            asked.push_back({holds ? "1" : "0", line, Kind::Number});
+            replaced.push_back({holds ? "1" : "0", line, Kind::Number});
             i += isBracketed ? 3 : 1;
         }
-        expand(std::move(asked), expanded, 0);
+        expand(std::move(replaced), expanded, 0);
         const auto value = wholeNumberOf(expanded, [](std::string_view) { return std::optional<std::int64_t>(0); });
         if (!value)
             throw HookFault{line,

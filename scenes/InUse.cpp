@@ -53,18 +53,18 @@ bool anyScatters(const Scene& scene) {
     });
 }
 
-bool spreads(const Scene& scene, const MeshInstance& instance, SubsurfaceRequest request) {
+bool diffuses(const Scene& scene, const MeshInstance& instance, SubsurfaceRequest request) {
     return isDrawn(scene, instance) &&
-           infoOf(subsurfaceOf(scene.materials[std::size_t(instance.material)], request)).spreads;
+           infoOf(subsurfaceOf(scene.materials[std::size_t(instance.material)], request)).diffuses;
 }
 
-bool anySpreads(const Scene& scene, SubsurfaceRequest request) {
+bool anyDiffuses(const Scene& scene, SubsurfaceRequest request) {
     // Called often, for scenes with far more nodes than materials.
     const bool mayDo = std::ranges::any_of(
-        scene.materials, [&](const Material& material) { return infoOf(subsurfaceOf(material, request)).spreads; });
+        scene.materials, [&](const Material& material) { return infoOf(subsurfaceOf(material, request)).diffuses; });
     return mayDo && std::ranges::any_of(scene.nodes, [&](const Node& node) {
                return std::ranges::any_of(
-                   node.instances, [&](const MeshInstance& instance) { return spreads(scene, instance, request); });
+                   node.instances, [&](const MeshInstance& instance) { return diffuses(scene, instance, request); });
            });
 }
 

@@ -27,8 +27,8 @@ std::vector<const Mesh*> meshesInUse(const Scene& scene);
 bool anyScatters(const Scene& scene);
 
 /// Whether the subsurface method of an instance diffuses irradiance over its surface.
-bool spreads(const Scene& scene, const MeshInstance& instance, SubsurfaceRequest request);
+bool diffuses(const Scene& scene, const MeshInstance& instance, SubsurfaceRequest request);
 /// Whether that of any instance does.
-bool anySpreads(const Scene& scene, SubsurfaceRequest request);
+bool anyDiffuses(const Scene& scene, SubsurfaceRequest request);
 
 } // namespace tessera::scenes

@@ -145,14 +145,15 @@ void warnOfDarkAreas(Scene& scene) {
             fmt::format("{} lights have an area of 0 and stay dark, first {}; give them a size", count, first));
 }
 
-void requireVariant(const Scene& scene, const std::string& nameOrPath, const ImportWishes& wishes) {
-    if (!wishes.variant || std::ranges::find(scene.variants, *wishes.variant) != scene.variants.end()) return;
+void requireVariant(const Scene& scene, const std::string& nameOrPath, const ImportOptions& importOptions) {
+    if (!importOptions.variant || std::ranges::find(scene.variants, *importOptions.variant) != scene.variants.end())
+        return;
     if (scene.variants.empty())
-        throw InputError(
-            fmt::format("{}: no model of the scene has variants, so none is called '{}'", nameOrPath, *wishes.variant));
+        throw InputError(fmt::format("{}: no model of the scene has variants, so none is called '{}'", nameOrPath,
+                                     *importOptions.variant));
     const std::vector<std::string_view> names(scene.variants.begin(), scene.variants.end());
-    throw InputError(fmt::format("{}: no variant of the scene's models is called '{}'; {}", nameOrPath, *wishes.variant,
-                                 suggestNames(*wishes.variant, names)));
+    throw InputError(fmt::format("{}: no variant of the scene's models is called '{}'; {}", nameOrPath,
+                                 *importOptions.variant, suggestNames(*importOptions.variant, names)));
 }
 
 void goOn(const LoadOptions& options) {
@@ -216,7 +217,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
     goOn(options);
     Scene scene;
     LoadLedger ledger(options.memoryLimitBytes, options.import);
-    ledger.tellEnvironment(options.environmentTold);
+    ledger.reportEnvironment(options.environmentProgress);
     if (const BuiltinScene* builtin = builtinScene(nameOrPath)) {
         scene = makeBuiltin(*builtin, options, ledger, nameOrPath);
     } else {

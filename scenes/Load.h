@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/ImportWishes.h"
+#include "scenes/ImportOptions.h"
 #include "scenes/Scene.h"
 
 namespace tessera::scenes {
@@ -30,7 +30,7 @@ struct LoadOptions {
     std::optional<std::string> clip;
     /// Values for parameters of the scene's hook, applied in order.
     std::vector<HookValue> hookValues;
-    ImportWishes import; ///< import options of models
+    ImportOptions import; ///< import options of models
     /// Memory limit for reading files (LoadLedger.h); none: defaultMemoryLimitBytes().
     std::optional<std::uint64_t> memoryLimitBytes;
     /// If set, the names of all files read are appended.
@@ -39,8 +39,8 @@ struct LoadOptions {
     /// Aspect, width over height, into which a supplied camera fits the scene; none: that of the scene's options. The
     /// viewer also adapts the cameras of built-in scenes to it.
     std::optional<double> aspect;
-    /// Progress callback, see LoadLedger::tellEnvironment().
-    std::function<void(double)> environmentTold;
+    /// Progress callback, see LoadLedger::reportEnvironment().
+    std::function<void(double)> environmentProgress;
     /// Checked before a scene is made or its file imported, and between the checks after, but not while a file is read.
     /// LoadStopped is thrown if a stop is requested.
     std::stop_token stop;

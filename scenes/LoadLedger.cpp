@@ -74,12 +74,12 @@ std::string sizeText(std::uint64_t bytes) {
     return fmt::format("{:.1f} {}", size, unit);
 }
 
-LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes, ImportWishes wishes)
-    : limitBytes_(limitBytes ? *limitBytes : defaultMemoryLimitBytes()), wishes_(std::move(wishes)) {}
+LoadLedger::LoadLedger(std::optional<std::uint64_t> limitBytes, ImportOptions importOptions)
+    : limitBytes_(limitBytes ? *limitBytes : defaultMemoryLimitBytes()), importOptions_(std::move(importOptions)) {}
 
 void LoadLedger::refuse(const std::string& who, std::uint64_t bytes) const {
     throw MemoryRefused(
-        fmt::format("{}: asks for {} of memory, and {} are in use; a load may take {}; use a smaller file, or raise "
+        fmt::format("{}: needs {} of memory, and {} are in use; a load may take {}; use a smaller file, or raise "
                     "the memory limit",
                     who, sizeText(bytes), sizeText(usedBytes_), sizeText(limitBytes_)));
 }
@@ -135,10 +135,10 @@ std::uint64_t bytesOf(const Scene& scene) {
         for (const LightKeys& keys : light.keyframes) bytes += bytesWithin(keys);
     }
     for (const Camera& camera : scene.cameras) bytes += camera.name.size();
-    for (const auto& [key, wish] : scene.options.wishes) {
-        bytes += sizeof(key) + sizeof(wish) + key.size();
-        if (const auto* text = std::get_if<std::string>(&wish)) bytes += text->size();
-        if (const auto* list = std::get_if<std::vector<double>>(&wish)) bytes += bytesOf(*list);
+    for (const auto& [key, option] : scene.options.requested) {
+        bytes += sizeof(key) + sizeof(option) + key.size();
+        if (const auto* text = std::get_if<std::string>(&option)) bytes += text->size();
+        if (const auto* list = std::get_if<std::vector<double>>(&option)) bytes += bytesOf(*list);
     }
     for (const auto* words : {&scene.variants, &scene.notes, &scene.warnings})
         for (const std::string& text : *words) bytes += sizeof(std::string) + text.size();

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/Error.h"
-#include "scenes/ImportWishes.h"
+#include "scenes/ImportOptions.h"
 #include "scenes/Scene.h"
 
 namespace tessera::scenes {
@@ -38,7 +38,7 @@ public:
 class LoadLedger {
 public:
     /// Without a limit: defaultMemoryLimitBytes().
-    explicit LoadLedger(std::optional<std::uint64_t> limitBytes = {}, ImportWishes wishes = {});
+    explicit LoadLedger(std::optional<std::uint64_t> limitBytes = {}, ImportOptions importOptions = {});
     LoadLedger(const LoadLedger&) = delete;
     LoadLedger& operator=(const LoadLedger&) = delete;
 
@@ -55,14 +55,14 @@ public:
         usedBytes_ = std::min(markBytes + keptBytes, limitBytes_);
     }
 
-    const ImportWishes& wishes() const { return wishes_; }
+    const ImportOptions& importOptions() const { return importOptions_; }
     /// Sets the variant named by a scene file. The caller's option takes precedence, then outer files over inner ones.
-    void wishVariant(std::optional<std::string> variant) { wishes_.variant = std::move(variant); }
+    void requestVariant(std::optional<std::string> variant) { importOptions_.variant = std::move(variant); }
 
     /// Sets the progress callback, which may be empty: called from any thread with the computed fraction of a built-in
     /// environment's map. Its exceptions end the load and are rethrown.
-    void tellEnvironment(std::function<void(double)> told) { environmentTold_ = std::move(told); }
-    const std::function<void(double)>& environmentTold() const { return environmentTold_; }
+    void reportEnvironment(std::function<void(double)> progress) { environmentProgress_ = std::move(progress); }
+    const std::function<void(double)>& environmentProgress() const { return environmentProgress_; }
 
     /// Records a repaired flaw of an image, "file: flaw; repair".
     void warn(std::string text) {
@@ -78,10 +78,10 @@ private:
     [[noreturn]] void refuse(const std::string& who, std::uint64_t bytes) const;
 
     std::uint64_t limitBytes_;
-    ImportWishes wishes_;
+    ImportOptions importOptions_;
     std::uint64_t usedBytes_ = 0; ///< at most limitBytes_
     std::vector<std::string> files_, warnings_;
-    std::function<void(double)> environmentTold_;
+    std::function<void(double)> environmentProgress_;
 };
 
 /// Memory of parts of a scene, in bytes.

@@ -272,7 +272,7 @@ constexpr const MaterialModelInfo& infoOf(MaterialModel model) {
 }
 
 /// Whether a model supports a masking-shadowing option. Models without masking ignore it and accept all.
-constexpr bool takesMasking(MaterialModel model, Masking masking) {
+constexpr bool supportsMasking(MaterialModel model, Masking masking) {
     const MaterialModelInfo& info = infoOf(model);
     return masking != Masking::Directional || !info.isMicrofacet() || info.anisotropy == Anisotropy::Alphas;
 }

@@ -78,14 +78,14 @@ Light lightAtTime(const Light& light, double timeSeconds);
 // ---- Options, scene -------------------------------------------------------------------------------------------------
 
 /// A setting's value as requested in a scene's file.
-using Wish = std::variant<bool, double, std::string, std::vector<double>>;
+using OptionValue = std::variant<bool, double, std::string, std::vector<double>>;
 
 /// Options requested by a scene, which the user's options override.
 struct SceneOptions {
     std::optional<std::string> camera;
-    std::optional<std::string> clip;                 ///< as in playClip(); none: the first of each model is active
-    std::optional<bool> defaultLight;                ///< false: supply no light if the scene has none
-    std::map<std::string, Wish, std::less<>> wishes; ///< requested settings, by key (engine::settingTable())
+    std::optional<std::string> clip;  ///< as in playClip(); none: the first of each model is active
+    std::optional<bool> defaultLight; ///< false: supply no light if the scene has none
+    std::map<std::string, OptionValue, std::less<>> requested; ///< requested settings, by key (engine::settingTable())
     bool operator==(const SceneOptions&) const = default;
 };
 
@@ -96,7 +96,7 @@ struct Supplied {
     bool replacesCameras = false; ///< the supplied camera replaces the scene's own
     int exposureEV = 0;           ///< whole stops, if its lights are much too bright or too dim for a display
     bool isInside = false;        ///< the supplied camera is inside the scene, which surrounds it (scenes/Enclosure.h)
-    std::set<std::string> wishes; ///< keys of SceneOptions::wishes that no file requested
+    std::set<std::string> requested; ///< keys of SceneOptions::requested that no file requested
     bool operator==(const Supplied&) const = default;
 };
 
@@ -114,7 +114,7 @@ struct Scene {
     glm::vec3 background{0.0f}; ///< linear radiance where nothing is drawn and no environment is displayed
     SceneOptions options;
     Supplied supplied;
-    std::vector<std::string> variants; ///< unique names of all material variants (ImportWishes::variant)
+    std::vector<std::string> variants; ///< unique names of all material variants (ImportOptions::variant)
     std::vector<std::string> notes;    ///< importer choices that are worth knowing but lose nothing
     std::vector<std::string> warnings; ///< what the importer left out or changed, each naming the feature
 };

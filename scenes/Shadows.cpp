@@ -13,7 +13,7 @@ bool castsShadow(const Scene& scene, std::size_t light, const ShadowRequest& req
     switch (request.kind) {
     case ShadowRequest::Kind::None:
         return false;
-    case ShadowRequest::Kind::Asked:
+    case ShadowRequest::Kind::Scene:
         return scene.lights[light].castsShadow;
     case ShadowRequest::Kind::All:
         return true;

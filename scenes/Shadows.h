@@ -19,11 +19,11 @@ namespace tessera::scenes {
 struct ShadowRequest {
     enum class Kind : std::uint8_t {
         None,
-        Asked, ///< those with Light::castsShadow
+        Scene, ///< those with Light::castsShadow
         All,
         First ///< the first `lights` of Scene::lights
     };
-    Kind kind = Kind::Asked;
+    Kind kind = Kind::Scene;
     int lights = 0; ///< 0 except for First
     bool operator==(const ShadowRequest&) const = default;
 };

@@ -23,9 +23,9 @@ struct SubsurfaceMethodInfo {
     SubsurfaceMethod method;
     std::string_view name; ///< of scene files and options
     std::string_view summary;
-    bool wraps = false;   ///< lights below the horizon illuminate the surface
-    bool passes = false;  ///< light from behind is transmitted through the body
-    bool spreads = false; ///< irradiance is diffused over the surface
+    bool wraps = false;    ///< lights below the horizon illuminate the surface
+    bool passes = false;   ///< light from behind is transmitted through the body
+    bool diffuses = false; ///< irradiance is diffused over the surface
 };
 inline constexpr std::array kSubsurfaceMethods{
     SubsurfaceMethodInfo{SubsurfaceMethod::None, "none", "light leaves where it enters"},
@@ -38,9 +38,9 @@ inline constexpr std::array kSubsurfaceMethods{
     // Transmitted light is diffused over the far side too.
     SubsurfaceMethodInfo{.method = SubsurfaceMethod::TextureSpaceDiffusion,
                          .name = "texture_space_diffusion",
-                         .summary = "light spreads over the surface",
+                         .summary = "light diffuses over the surface",
                          .passes = true,
-                         .spreads = true},
+                         .diffuses = true},
 };
 static_assert(isInOrder(kSubsurfaceMethods, &SubsurfaceMethodInfo::method, std::size_t(SubsurfaceMethod::Count)));
 constexpr std::span<const SubsurfaceMethodInfo> subsurfaceMethods() {

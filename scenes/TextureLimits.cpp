@@ -124,7 +124,7 @@ void keepTexturePlaces(Scene& scene, const std::string& source, Repairs& repairs
 } // namespace
 
 void keepTextureLimits(Scene& scene, const std::string& source, LoadLedger& ledger) {
-    Repairs repairs(ledger.wishes().isStrict);
+    Repairs repairs(ledger.importOptions().isStrict);
     averageLargeImages(scene, source, ledger, repairs);
     keepTexturePlaces(scene, source, repairs);
     const std::vector<std::string> warnings = repairs.warnings();

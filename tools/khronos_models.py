@@ -119,7 +119,7 @@ def models_below(folder, left_out=()):
 
 
 def document_of(path):
-    """The JSON of a model; an empty one where it cannot be read, which the program tells better."""
+    """The JSON of a model; an empty one where it cannot be read, which the program reports better."""
     try:
         data = path.read_bytes()
         if data[:4] == b"glTF":
@@ -539,8 +539,8 @@ def main(arguments):
             rows.append(row)
             records.append((name, row.status, *figures, f"{seconds:.2f}", " / ".join(said)))
             pictures.append((name, rgb))
-            told = "".join(f", {fault}" for fault in faults_of(row) if fault != row.status)
-            print(f"{number}/{len(models)} {name}: {row.status}{told}, {seconds:.1f} s", flush=True)
+            faults = "".join(f", {fault}" for fault in faults_of(row) if fault != row.status)
+            print(f"{number}/{len(models)} {name}: {row.status}{faults}, {seconds:.1f} s", flush=True)
     write(options.output / "sheet.png", png_of(*sheet_of(pictures, options.size)))
     totals = totals_of(rows)
     table = table_of(rows)

@@ -65,7 +65,7 @@ ensurePackages() {
     missing=${missing% }
     if [ -n "$missing" ]; then
         echo "Installing Debian packages: $missing" >&2
-        # sudo asks for the password here, before its output is silenced.
+        # sudo reads the password here, before its output is silenced.
         if [ "$(id -u)" -ne 0 ] && ! { command -v sudo >/dev/null && sudo -v; }; then
             fail "That needs root: apt-get install --no-install-recommends $missing"
         fi

@@ -130,8 +130,8 @@ void Document::adoptLoaded() {
     const bool goesOn = keepsEdits_ && loaded != nullptr && state_.open && state_.open->source() == state_.loading &&
                         state_.open->canGoOnAs(*loaded);
     // No dialog has covered edits made during the load, nor edits that a variant cannot keep.
-    const bool isUnasked = state_.open && (keepsEdits_ || state_.open->edits() != editsLeft_);
-    if (loaded != nullptr && isUnasked && !goesOn &&
+    const bool isUnconfirmed = state_.open && (keepsEdits_ || state_.open->edits() != editsLeft_);
+    if (loaded != nullptr && isUnconfirmed && !goesOn &&
         !mayLeave({Question::About::Opening, state_.loading, loadingVariant_}))
         return scenes_.discard();
     std::unique_ptr<OpenScene> scene = scenes_.take([this](const OpenScene& shown) { screen_.open(shown); });
@@ -211,22 +211,22 @@ void Document::nameWindow() {
     title_ = title;
 }
 
-void Document::askWhatToOpen() {
+void Document::showOpenDialog() {
     const std::vector<std::string> folders = foldersOf(state_.recent);
     std::error_code error;
     const bool hasRecent = !folders.empty() && std::filesystem::is_directory(folders.front(), error);
     state_.files.emplace(FileDialog::Purpose::Open, hasRecent ? std::filesystem::path(folders.front()) : startFolder());
     pulse_.settle();
-    log_.line("asks what to open");
+    log_.line("shows the open dialog");
 }
 
-void Document::askWhereToSave(const std::filesystem::path& path, const std::string& reason) {
+void Document::showSaveDialog(const std::filesystem::path& path, const std::string& reason) {
     const std::filesystem::path given = path.has_parent_path() ? path.parent_path() : startFolder();
     const std::filesystem::path folder = reason.empty() ? given : homeFolder().value_or(given);
     state_.files.emplace(FileDialog::Purpose::Save, folder, path.filename().string(), reason);
     pulse_.settle();
     if (!reason.empty()) log_.line("error " + reason);
-    log_.line("asks where to save");
+    log_.line("shows the save dialog");
 }
 
 /// Opens the dialog for another name if this path is not writable.
@@ -235,7 +235,7 @@ bool Document::mayWrite(const std::string& path) {
         requireWritable(path);
         return true;
     } catch (const std::exception& error) {
-        askWhereToSave(path, error.what());
+        showSaveDialog(path, error.what());
         return false;
     }
 }

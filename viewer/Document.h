@@ -67,9 +67,9 @@ public:
 
     // ---- Files ----
     /// Opens the file dialog.
-    void askWhatToOpen();
+    void showOpenDialog();
     /// Opens the save dialog. With a reason, the path's folder is not writable and the home folder is proposed.
-    void askWhereToSave(const std::filesystem::path& path, const std::string& reason = {});
+    void showSaveDialog(const std::filesystem::path& path, const std::string& reason = {});
     /// These ask for another name if the path is not writable. saveScene() uses a free name; returns whether it saved.
     bool saveScene();
     void savePicture(glm::ivec2 size, const char* ending);

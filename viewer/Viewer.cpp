@@ -53,7 +53,7 @@ public:
     explicit Viewer(const ViewerOptions& options)
         : log_(options.log), window_(windowSize(options)), gui_(window_), screen_(window_.context()),
           drawing_(state_, facts_, screen_, window_, log_, pulse_,
-                   {[this](const std::string& text) { fail(text); }, [this] { tellProgress(); },
+                   {[this](const std::string& text) { fail(text); }, [this] { showProgress(); },
                     [this] { return document_.hasResult(); }}),
           saver_(state_, screen_, log_), measurements_([] { Window::wake(); }),
           document_({options, state_, facts_, window_, log_, pulse_, screen_, drawing_, saver_, measurements_},
@@ -90,7 +90,7 @@ private:
     // ---- When to draw ----
     double now() const { return Window::nowSeconds(); }
     bool awaitsRest() const {
-        return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.lacksSmoothing() || drawing_.tellsRate() ||
+        return !drawing_.isSettled() || drawing_.lacksLight() || drawing_.lacksSmoothing() || drawing_.showsRate() ||
                inspector_.awaitsRest() || outline_.awaitsRest() || capture_.awaitsRest();
     }
     double glidesFrom() const { return Gliding{window_.isButtonHeld(), isMoving(state_), facts_.ms, shownAt_}.from(); }
@@ -104,7 +104,7 @@ private:
         if (window_.hasActivity() || document_.hasResult()) return true;
         if (now() < glidesFrom()) return isVisible() && !window_.input().empty();
         if (pulse_.settleFrames > 0) return true;
-        if (isVisible() && document_.isLoading() && now() >= backgroundToldAt_) return true;
+        if (isVisible() && document_.isLoading() && now() >= backgroundShownAt_) return true;
         if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
         return hasPicturePlace() &&
                (isMoving(state_) || inspector_.isBusy() || (awaitsRest() && now() >= pulse_.restAt));
@@ -118,7 +118,7 @@ private:
         if (awaitsRest() && hasPicturePlace()) atMost(std::max(pulse_.restAt - now(), 0.0));
         if (isVisible() && !state_.notice.text.empty() && !state_.notice.isError)
             atMost(std::max(saidUntil_ - now(), 0.0));
-        if (isVisible() && document_.isLoading()) atMost(std::max(backgroundToldAt_ - now(), 0.0));
+        if (isVisible() && document_.isLoading()) atMost(std::max(backgroundShownAt_ - now(), 0.0));
         if (const auto keepAt = document_.keepAt()) atMost(std::max(*keepAt - now(), 0.0));
         return seconds;
     }
@@ -126,17 +126,18 @@ private:
     // ---- Long operations ----
     void noteBackground() {
         facts_.background = document_.loadingProgress();
-        backgroundToldAt_ = now() + kBackgroundSeconds;
+        backgroundShownAt_ = now() + kBackgroundSeconds;
     }
-    bool isCancellable() const { return facts_.told() && facts_.told()->canCancel; }
+    bool isCancellable() const { return facts_.shownProgress() && facts_.shownProgress()->canCancel; }
     void cancel() { facts_.isLoadFirst() ? document_.cancelEnvironment() : drawing_.cancel(); }
     /// Shows progress in the middle of a long draw.
-    void tellProgress() {
+    void showProgress() {
         const gpu::BetweenBands between;
         noteBackground();
         paint();
-        gui_.drawOver(
-            [this](ImDrawList& list) { drawProgress(*facts_.told(), area_, state_.inspectorBox, uiScale(), list); });
+        gui_.drawOver([this](ImDrawList& list) {
+            drawProgress(*facts_.shownProgress(), area_, state_.inspectorBox, uiScale(), list);
+        });
         present();
     }
 
@@ -168,9 +169,9 @@ private:
         if (screen_.renderer()->programs().sourcesChanged()) reloadShaders(false);
     }
 
-    void reloadShaders(bool isAsked) {
+    void reloadShaders(bool isRequested) {
         if (!screen_.renderer()) return;
-        viewer::reloadShaders(screen_.renderer()->programs(), state_, log_, isAsked);
+        viewer::reloadShaders(screen_.renderer()->programs(), state_, log_, isRequested);
         screen_.forget();
         outline_.forget();
         capture_.forget();
@@ -259,7 +260,7 @@ private:
         });
         show();
         drawing_.setDescribed(!drew);
-        if (facts_.isPreparing || facts_.isSpreading || drawing_.givenUp() > givenUp)
+        if (facts_.isPreparing || facts_.isDiffusing || drawing_.givenUp() > givenUp)
             return; // the image that answers the input is still to come
         const std::optional<double> heardAt = std::exchange(heardAt_, std::nullopt);
         if (heardAt && drew) log_.line(fmt::format("answered ms {:.1f}", 1000.0 * (shownAt_ - *heardAt)));
@@ -305,7 +306,7 @@ private:
         attempt([&] {
             if (requests.chosen) document_.openFile(*requests.chosen);
         });
-        if (requests.askWhatToOpen) document_.askWhatToOpen();
+        if (requests.showOpenDialog) document_.showOpenDialog();
         attempt([&] {
             if (requests.variant) document_.openVariant(*requests.variant);
         });
@@ -331,7 +332,7 @@ private:
         if (requests.savePng) document_.savePicture(size, ".png");
         if (requests.saveExr) document_.savePicture(size, ".exr");
         if (requests.saveScene) document_.saveScene();
-        if (requests.askWhereToSave) document_.askWhereToSave(saver_.freeName(".json"));
+        if (requests.showSaveDialog) document_.showSaveDialog(saver_.freeName(".json"));
         if (requests.saveAs) document_.saveAs(*requests.saveAs, size);
         if (requests.saveTrace) saver_.trace();
         if (requests.copyCommand) document_.copyCommand(size);
@@ -428,7 +429,7 @@ private:
     double shownAt_ = 0.0;
     std::optional<double> heardAt_; ///< arrival time of the oldest input whose result is not yet shown
     double nextShaderLook_ = 0.0;
-    double backgroundToldAt_ = 0.0;                    ///< when load progress is shown next
+    double backgroundShownAt_ = 0.0;                   ///< when load progress is shown next
     std::pair<const OpenScene*, std::string> learned_; ///< the scene whose glyphs are loaded, and its file
     std::string said_;                                 ///< the latest notice
     double saidUntil_ = 0.0;

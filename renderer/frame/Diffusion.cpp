@@ -31,16 +31,16 @@ double meanOf(const glm::dvec3& weight) {
 
 } // namespace
 
-std::vector<SpreadingObject> spreadingObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
+std::vector<DiffusionObject> diffusionObjects(const scenes::Scene& scene, scenes::SubsurfaceRequest subsurface,
                                               std::span<const SurfaceBounds> bounds) {
-    std::vector<SpreadingObject> objects;
-    if (!scenes::anySpreads(scene, subsurface)) return objects;
+    std::vector<DiffusionObject> objects;
+    if (!scenes::anyDiffuses(scene, subsurface)) return objects;
     int number = 0;
     for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
         for (const scenes::MeshInstance& instance : scene.nodes[node].instances) {
             const int own = number++;
-            if (!scenes::spreads(scene, instance, subsurface)) continue;
-            SpreadingObject& object = objects.emplace_back();
+            if (!scenes::diffuses(scene, instance, subsurface)) continue;
+            DiffusionObject& object = objects.emplace_back();
             object = {int(node),
                       instance.mesh,
                       instance.material,
@@ -57,8 +57,9 @@ std::vector<SpreadingObject> spreadingObjects(const scenes::Scene& scene, scenes
     return objects;
 }
 
-LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians, double texelMetres, bool isHalved) {
-    // Holds total variances here, not yet the increments of LightSpread::levels.
+DiffusionKernel diffusionKernel(const scenes::Subsurface& subsurface, int mostGaussians, double texelMetres,
+                                bool isHalved) {
+    // Holds total variances here, not yet the increments of DiffusionKernel::levels.
     std::vector<DiffusionLevel> levels;
     const scenes::DiffusionProfile& profile = scenes::profileOf(subsurface);
     glm::dvec3 sum(0.0);
@@ -95,33 +96,33 @@ LightSpread lightSpread(const scenes::Subsurface& subsurface, int mostGaussians,
     // Where the widths grow by more than DIFFUSION_WIDENING, every texel is a tap. The factor 1/2 allows for twice
     // as many taps where texels are smaller.
     const double fineMetres = texelMetres * double(DIFFUSION_MOST_FINE_TAPS) / 2.0 / DIFFUSION_REACH;
-    LightSpread spread;
-    spread.texelMetres = texelMetres;
+    DiffusionKernel kernel;
+    kernel.texelMetres = texelMetres;
     double before = shown;
     constexpr double kSmooth = DIFFUSION_WIDENING * DIFFUSION_WIDENING;
     const auto jumpsTo = [&](double variance) { return variance > kSmooth * before; };
     const auto add = [&](double variance, const glm::dvec3& weight) {
-        spread.levels.push_back({variance - before, weight, variance});
+        kernel.levels.push_back({variance - before, weight, variance});
         before = variance;
     };
     for (const DiffusionLevel& level : levels) {
         if (level.varianceSquareMetres <= shown) {
             const double share = shown > 0.0 ? level.varianceSquareMetres / shown : 1.0;
-            spread.inPixels += (1.0 - share) * level.weight;
-            spread.inTexels += share * level.weight;
+            kernel.inPixels += (1.0 - share) * level.weight;
+            kernel.inTexels += share * level.weight;
             continue;
         }
         const double variance = level.varianceSquareMetres;
         while (texelMetres > 0.0 && jumpsTo(variance) && variance - before > fineMetres * fineMetres &&
-               spread.levels.size() < kMostLevels)
+               kernel.levels.size() < kMostLevels)
             add(std::max(before + fineMetres * fineMetres, kSmooth * before), glm::dvec3(0.0));
         add(variance, level.weight);
     }
-    return spread;
+    return kernel;
 }
 
-LevelReach levelReach(const LightSpread& spread, std::size_t level) {
-    return {level == 0 ? 0.0 : spread.levels[level - 1].spreadSquareMetres, spread.levels[level].spreadSquareMetres};
+LevelReach levelReach(const DiffusionKernel& kernel, std::size_t level) {
+    return {level == 0 ? 0.0 : kernel.levels[level - 1].totalSquareMetres, kernel.levels[level].totalSquareMetres};
 }
 
 int gutterTexels(const std::vector<DiffusionLevel>& levels, double texelMetres) {
@@ -139,23 +140,24 @@ double texelMetresOf(double sideMetres, int sideTexels, int border) {
     return sideMetres / double(sideTexels - 2 * border);
 }
 
-SpreadLightAtlas spreadLightAtlas(std::size_t objects, int sideTexels) {
-    SpreadLightAtlas cells;
+DiffusionAtlas diffusionAtlas(std::size_t objects, int sideTexels) {
+    DiffusionAtlas cells;
     cells.sideTexels = sideTexels;
     cells.columns = std::max(1, int(std::ceil(std::sqrt(double(objects)))));
     cells.rows = std::max(1, (int(objects) + cells.columns - 1) / cells.columns);
     return cells;
 }
 
-void requireUnwrapped(const scenes::Scene& scene, const SpreadingObject& object) {
+void requireUnwrapped(const scenes::Scene& scene, const DiffusionObject& object) {
     const std::string problem = unwrapProblem(scene.meshes[std::size_t(object.mesh)]);
     if (!problem.empty())
-        throw InputError(fmt::format("{}: light cannot spread over {}: {}, or give its material another subsurface "
-                                     "method (--subsurface wrap)",
-                                     scene.name, object.name, problem));
+        throw InputError(
+            fmt::format("{}: light cannot be diffused over {}: {}, or give its material another subsurface "
+                        "method (--subsurface wrap)",
+                        scene.name, object.name, problem));
 }
 
-const GpuUvAtlas& GpuUvAtlases::of(const SpreadingObject& object, int sideTexels, int gutter) {
+const GpuUvAtlas& GpuUvAtlases::of(const DiffusionObject& object, int sideTexels, int gutter) {
     std::unique_ptr<GpuUvAtlas>& kept = atlases_[{object.instance, sideTexels, gutter}];
     if (kept) return *kept;
     requireUnwrapped(scene_, object);
@@ -214,11 +216,11 @@ TileSet DiffusionMemory::unlit(std::size_t cell, std::uint64_t key, const TileSe
     return without(tiles, cells_[cell].key == key, cells_[cell].lit);
 }
 
-void DiffusionMemory::hold(std::size_t cell, std::uint64_t key, const TileSet& lit, const TileSet& spread) {
+void DiffusionMemory::hold(std::size_t cell, std::uint64_t key, const TileSet& lit, const TileSet& diffused) {
     Cell& own = cells_[cell];
     if (own.key != key) own = {key, {}, {}, {}};
     addTo(own.lit, lit);
-    addTo(own.stored, spread);
+    addTo(own.stored, diffused);
 }
 
 void DiffusionMemory::holdBlank(std::size_t cell, std::uint64_t key, const TileSet& blank) {
@@ -241,13 +243,13 @@ DiffusionWork DiffusionMemory::next(std::size_t cell, std::uint64_t key, const s
                                     const std::vector<double>& variances, const TileSet& tiles) {
     const TileSet lacking = missing(cell, key, tiles);
     DiffusionWork work =
-        diffusionWork(atlas, variances, tilesLeft_ ? lacking.first(kSpreadTiles * *tilesLeft_) : lacking);
+        diffusionWork(atlas, variances, tilesLeft_ ? lacking.first(kDiffusedTiles * *tilesLeft_) : lacking);
     work.light = unlit(cell, key, work.light);
     if (!tilesLeft_) return work;
     const TileSet light = work.light.first(*tilesLeft_);
     *tilesLeft_ -= light.count();
     if (light == work.light) {
-        *tilesLeft_ -= std::min(*tilesLeft_, (work.store.count() + kSpreadTiles - 1) / kSpreadTiles);
+        *tilesLeft_ -= std::min(*tilesLeft_, (work.store.count() + kDiffusedTiles - 1) / kDiffusedTiles);
     } else { // diffusion waits until all its irradiance is lit
         const TileSet none(tiles.side());
         work = {light, std::vector<DiffusionWork::Level>(variances.size(), {none, none, none}), none};

@@ -5,8 +5,9 @@
 namespace tessera::frame {
 
 DiffusionSchedule::DiffusionSchedule(DiffusionMemory* memory, std::vector<Object> objects, bool holdsAtlas,
-                                     std::function<void()> spreadOne)
-    : memory_(memory), objects_(std::move(objects)), holdsAtlas_(holdsAtlas), spreadOne_(std::move(spreadOne)) {
+                                     std::function<void()> objectDiffused)
+    : memory_(memory), objects_(std::move(objects)), holdsAtlas_(holdsAtlas),
+      objectDiffused_(std::move(objectDiffused)) {
     if (memory_) memory_->begin(objects_.size(), holdsAtlas);
 }
 
@@ -26,14 +27,14 @@ DiffusionTask DiffusionSchedule::next(std::size_t cell, bool holdsLight) {
     }
     if (!holdsLight) memory_->forgetLit(cell);
     task.work = memory_->next(cell, object.key, *object.tiles, object.variancesSquareMetres, object.seen);
-    task.spreads = !memory_->isLimited() || !task.work.store.isEmpty();
-    task.lights = !task.work.light.isEmpty() || (task.spreads && !holdsLight);
+    task.diffuses = !memory_->isLimited() || !task.work.store.isEmpty();
+    task.lights = !task.work.light.isEmpty() || (task.diffuses && !holdsLight);
     task.lit = [memory = memory_, cell, key = object.key, tiles = task.work.light] {
         memory->hold(cell, key, tiles, {});
     };
-    task.stored = [memory = memory_, cell, key = object.key, tiles = task.work.store, told = spreadOne_] {
+    task.stored = [memory = memory_, cell, key = object.key, tiles = task.work.store, report = objectDiffused_] {
         memory->hold(cell, key, {}, tiles);
-        if (told) told();
+        if (report) report();
     };
     task.blanked = [memory = memory_, cell, key = object.key, tiles = task.work.blank] {
         memory->holdBlank(cell, key, tiles);

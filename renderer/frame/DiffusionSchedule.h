@@ -10,13 +10,13 @@ namespace tessera::frame {
 
 /// Constant revision of the textures that keep diffused light from frame to frame: DiffusionMemory tracks their
 /// validity per tile.
-inline constexpr std::uint64_t kSpreadLightRevision = 1;
+inline constexpr std::uint64_t kDiffusedLightRevision = 1;
 
 /// A frame's diffusion work for one object.
 struct DiffusionTask {
     DiffusionWork work;
-    bool lights = true;  ///< renders the irradiance of texels
-    bool spreads = true; ///< diffuses it and stores the result; else a later frame does
+    bool lights = true;   ///< renders the irradiance of texels
+    bool diffuses = true; ///< diffuses it and stores the result; else a later frame does
     /// Completion callbacks of the passes; empty in a plan.
     std::function<void()> lit, stored, blanked;
 };
@@ -31,10 +31,11 @@ public:
         const std::vector<DiffusionTile>* tiles = nullptr; ///< of its UV atlas
         TileSet seen;
     };
-    /// `objects` by cell of the view's SpreadLightAtlas; `holdsAtlas`: an earlier frame left it. Without `memory`: a
-    /// plan, whose tasks include every pass. `spreadOne` is called after an object's light is stored; may be empty.
+    /// `objects` by cell of the view's DiffusionAtlas; `holdsAtlas`: an earlier frame left it. Without `memory`: a
+    /// plan, whose tasks include every pass. `objectDiffused` is called after an object's light is stored; may be
+    /// empty.
     DiffusionSchedule(DiffusionMemory* memory, std::vector<Object> objects, bool holdsAtlas,
-                      std::function<void()> spreadOne = {});
+                      std::function<void()> objectDiffused = {});
 
     /// Whether the frame leaves the cell as it is.
     bool leaves(std::size_t cell) const;
@@ -47,7 +48,7 @@ private:
     std::vector<Object> objects_;
     bool holdsAtlas_;
     bool writes_ = false; ///< some task so far writes the atlas
-    std::function<void()> spreadOne_;
+    std::function<void()> objectDiffused_;
 };
 
 } // namespace tessera::frame

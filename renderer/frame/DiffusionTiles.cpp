@@ -65,7 +65,7 @@ struct Looked {
     }
 };
 
-/// Radius of a Gaussian's taps in texels (shaders/passes/diffusion_spread.frag).
+/// Radius of a Gaussian's taps in texels (shaders/passes/diffusion_blur.frag).
 int reachTexels(double varianceSquareMetres, double stepMetres, int sideTexels) {
     if (!(stepMetres > 0.0)) return sideTexels;
     // The last tap may lie beyond the radius by up to the tap spacing.

@@ -64,7 +64,7 @@ struct DiffusionWork {
     struct Level {
         TileSet fill, alongU, alongV;
     };
-    std::vector<Level> levels; ///< parallel to LightSpread::levels
+    std::vector<Level> levels; ///< parallel to DiffusionKernel::levels
     TileSet store;
     TileSet blank = {}; ///< tiles to mark as having no light
 };

@@ -125,7 +125,7 @@ DrawRows rowsOf(const Draw& draw, const glm::dmat4& worldFromObject, const Camer
     for (int c = 0; c < 3; ++c)
         largest = std::max({largest, std::abs(normal[c].x), std::abs(normal[c].y), std::abs(normal[c].z)});
     if (largest > 0.0) normal /= largest;
-    const double extra[3] = {sign * (1.0 + draw.spreadingNumber), double(draw.largestColor), 1.0 + draw.instance};
+    const double extra[3] = {sign * (1.0 + draw.diffusionNumber), double(draw.largestColor), 1.0 + draw.instance};
     DrawRows rows;
     for (int r = 0; r < 3; ++r) {
         rows.position[r] = glm::vec4(linear[0][r], linear[1][r], linear[2][r], originRWS[r]);

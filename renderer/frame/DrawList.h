@@ -18,7 +18,7 @@ struct Draw {
     int instance = 0;        ///< place among the mesh instances of all nodes, in document order
     bool mirrored = false;   ///< the node's transform flips the winding
     bool castsShadow = true; ///< MeshInstance::castsShadow; the material must cast shadows too
-    int spreadingNumber = 0; ///< 1 + its cell in SpreadLightAtlas (Diffusion.h); 0: none
+    int diffusionNumber = 0; ///< 1 + its cell in DiffusionAtlas (Diffusion.h); 0: none
     float largestColor = 0;  ///< largest vertex colour channel of the mesh, at least 1; 0 without vertex colours
     scenes::Box3 boxWS{};    ///< bounds of the mesh's transformed box; empty without vertices
     double reachMetres = 0;  ///< largest sum of term magnitudes in a vertex's fp32 transform, without the translation
@@ -61,7 +61,7 @@ double roundingMetres(const Draw& draw, const glm::dvec3& objectWS, const Camera
 /// Per-draw vertex attributes (shaders/passes/geometry.vert): rows of RWS-from-object (world axes at the origin of
 /// lighting space, shaders/shared/frame.h) and of the cofactor matrix of LS-from-object times the sign of its
 /// determinant, which transforms normals by any matrix, singular ones too. Normal row 0's w is that sign times 1 +
-/// Draw::spreadingNumber. Row 1's w is Draw::largestColor; its 0 flags meshes without vertex colours, since white
+/// Draw::diffusionNumber. Row 1's w is Draw::largestColor; its 0 flags meshes without vertex colours, since white
 /// interpolated in perspective is not always exactly 1. Row 2's w is 1 + Draw::instance.
 struct DrawRows {
     glm::vec4 position[3];

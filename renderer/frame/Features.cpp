@@ -48,7 +48,8 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::Sheen, "SHEEN", "sheen", "no material has any"},
             {Feature::Iridescence, "IRIDESCENCE", "thin films", "no material has any"},
             {Feature::Transmission, "TRANSMISSION", "transmission", "no material has any"},
-            {Feature::Volume, "VOLUME", "bodies of what transmits", "no material that transmits has a thickness"},
+            {Feature::Volume, "VOLUME", "bodies of transmitting surfaces",
+             "no material that transmits has a thickness"},
             {Feature::Dispersion, "DISPERSION", "dispersion", "no body that transmits has any"},
             {Feature::Mirrors, "MIRRORS", "mirrors of the environment", "every highlight is broader than those"},
             {Feature::AlphaMask, "ALPHA_MASK", "alpha masks", "no material is alpha-masked"},
@@ -67,7 +68,7 @@ std::vector<FeatureInfo> makeTable() {
             {Feature::SubsurfaceWrap, "SUBSURFACE_WRAP", "wrapped light", "no material uses wrap"},
             {Feature::SubsurfacePassage, "SUBSURFACE_PASSAGE", "light through thin parts",
              "no material uses depth_map"},
-            {Feature::SubsurfaceDiffusion, "SUBSURFACE_DIFFUSION", "light spread over surfaces",
+            {Feature::SubsurfaceDiffusion, "SUBSURFACE_DIFFUSION", "light diffused over surfaces",
              "no material uses texture_space_diffusion"},
         });
     assert(table.size() == kFeatureCount);

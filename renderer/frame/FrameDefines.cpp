@@ -54,14 +54,14 @@ Defines frameDefines(const FrameSpec& spec) {
     if (spec.isInAtlas()) {
         const int side = spec.settings.sizePixels.x;
         defines.emplace_back("ATLAS_TEXELS", std::to_string(side));
-        const int border = borderTexels(spec.gutterTexels, spec.spreadTexels()) * (side / spec.spreadTexels());
+        const int border = borderTexels(spec.gutterTexels, spec.diffusionTexels()) * (side / spec.diffusionTexels());
         defines.emplace_back("ATLAS_BORDER", std::to_string(border));
     }
     if (spec.features[Feature::SubsurfaceDiffusion]) {
-        const SpreadLightAtlas cells = spec.spreadLightAtlas();
-        defines.emplace_back("SPREAD_CELL_TEXELS", std::to_string(cells.sideTexels));
-        defines.emplace_back("SPREAD_CELL_COLUMNS", std::to_string(cells.columns));
-        defines.emplace_back("SPREAD_CELL_ROWS", std::to_string(cells.rows));
+        const DiffusionAtlas cells = spec.diffusionAtlas();
+        defines.emplace_back("DIFFUSION_CELL_TEXELS", std::to_string(cells.sideTexels));
+        defines.emplace_back("DIFFUSION_CELL_COLUMNS", std::to_string(cells.columns));
+        defines.emplace_back("DIFFUSION_CELL_ROWS", std::to_string(cells.rows));
     }
     if (spec.features[Feature::Environment]) {
         defines.emplace_back("ENVIRONMENT_LIGHT", std::to_string(int(spec.settings.environment.light)));

@@ -52,7 +52,7 @@ SurfaceHandles SurfaceHandles::read(graph::PassBuilder& pass) const {
     SurfaceHandles result = readGeometry(pass);
     result.scene.materials = pass.read(scene.materials, Access::UniformRead);
     result.scene.facetNormals = readWhereThere(pass, scene.facetNormals, Access::VertexRead);
-    result.spreadLight = readWhereThere(pass, spreadLight, Access::ImageRead);
+    result.diffusedLight = readWhereThere(pass, diffusedLight, Access::ImageRead);
     result.hook = readWhereThere(pass, hook, Access::UniformRead);
     return result;
 }
@@ -80,7 +80,8 @@ void SurfaceHandles::drawDepth(const graph::PassContext& context, std::span<cons
 void SurfaceHandles::bind(const graph::PassContext& context) const {
     view.bind(context);
     if (hook) gpu::bindUniformBuffer(UNIFORM_HOOK, context.buffer(*hook), 0, sizeof(shared::HookConstants));
-    if (spreadLight) gpu::bindImage(IMAGE_UNIT_SPREAD_LIGHT, context.texture(*spreadLight), gpu::ImageAccess::Read);
+    if (diffusedLight)
+        gpu::bindImage(IMAGE_UNIT_DIFFUSED_LIGHT, context.texture(*diffusedLight), gpu::ImageAccess::Read);
 }
 
 void SurfaceHandles::draw(const graph::PassContext& context, Kind kind, const gpu::PipelineState& state,

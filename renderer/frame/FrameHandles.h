@@ -38,12 +38,12 @@ struct DrawnView {
     ShadowMemory* shadowMemory = nullptr; ///< if the view has shadow maps
 
     /// A diffusing object, drawn into its UV atlas.
-    struct SpreadingView;                       // contains a DrawnView, so no initializer may need it complete
-    std::vector<SpreadingView> spreadingViews;  ///< by cell of the view's SpreadLightAtlas
+    struct DiffusionView;                       // contains a DrawnView, so no initializer may need it complete
+    std::vector<DiffusionView> diffusionViews;  ///< by cell of the view's DiffusionAtlas
     DiffusionMemory* diffusionMemory = nullptr; ///< if the view has diffusing objects
-    std::function<void()> spreadOne = {};       ///< called after an object's light is diffused; may be empty
+    std::function<void()> objectDiffused = {};  ///< called after an object's light is diffused; may be empty
 };
-struct DrawnView::SpreadingView {
+struct DrawnView::DiffusionView {
     DrawnView drawn;
     const GpuUvAtlas* uvAtlas = nullptr;
     std::uint64_t key = 0; ///< hash of all inputs of its light
@@ -93,12 +93,12 @@ struct SceneHandles {
 struct SurfaceHandles {
     const DrawnView* drawn = nullptr;
     SceneHandles scene;
-    ViewHandles view;                                     ///< empty if a pass draws with its own cameras
-    graph::BufferHandle rows;                             ///< DrawRows of each draw of the view
-    graph::BufferHandle commands;                         ///< gpu::DrawIndexedCommand of the same
-    std::optional<graph::TextureHandle> spreadLight = {}; ///< with diffusing objects: the atlas of their light
-    std::optional<graph::BufferHandle> hook = {};         ///< with a scene hook: shared::HookConstants
-    std::vector<std::size_t> depthPrograms = {};          ///< of readDepth(): opaque, then masked if there is one
+    ViewHandles view;                                       ///< empty if a pass draws with its own cameras
+    graph::BufferHandle rows;                               ///< DrawRows of each draw of the view
+    graph::BufferHandle commands;                           ///< gpu::DrawIndexedCommand of the same
+    std::optional<graph::TextureHandle> diffusedLight = {}; ///< with diffusing objects: the atlas of their light
+    std::optional<graph::BufferHandle> hook = {};           ///< with a scene hook: shared::HookConstants
+    std::vector<std::size_t> depthPrograms = {};            ///< of readDepth(): opaque, then masked if there is one
 
     enum class Kind { Opaque, Transparent };
 

@@ -47,9 +47,9 @@ struct ShadowFilterInfo {
     ShadowFilter filter; ///< for map filters the value is SHADOW_FILTER_* of shaders/shared/shadow_maps.h
     std::string_view name;
     std::string_view summary;
-    bool usesMaps;   ///< samples depth maps; else traces rays
-    bool heedsSizes; ///< lights with a size have soft shadows
-    bool heedsWidth; ///< averages over ShadowMapSettings::widthTexels
+    bool usesMaps;  ///< samples depth maps; else traces rays
+    bool usesSizes; ///< lights with a size have soft shadows
+    bool usesWidth; ///< averages over ShadowMapSettings::widthTexels
 };
 std::span<const ShadowFilterInfo> shadowFilterTable();
 const ShadowFilterInfo& infoOf(ShadowFilter filter);
@@ -98,8 +98,8 @@ struct EnvironmentLightInfo {
     EnvironmentLight light; ///< its value is ENVIRONMENT_* of shaders/shared/environment.h
     std::string_view name;
     std::string_view summary;
-    bool lights;       ///< lights surfaces
-    bool takesSamples; ///< uses EnvironmentSettings::samples
+    bool lights;      ///< lights surfaces
+    bool usesSamples; ///< uses EnvironmentSettings::samples
 };
 std::span<const EnvironmentLightInfo> environmentLightTable();
 const EnvironmentLightInfo& infoOf(EnvironmentLight light);
@@ -110,7 +110,7 @@ struct AreaLightsInfo {
     AreaLights lights;
     std::string_view name;
     std::string_view summary;
-    bool takesSamples; ///< uses AreaSettings::samples
+    bool usesSamples; ///< uses AreaSettings::samples
 };
 std::span<const AreaLightsInfo> areaLightsTable();
 const AreaLightsInfo& infoOf(AreaLights lights);

@@ -43,7 +43,7 @@ std::size_t bytesWithout(Feature feature, const FeatureSet& features) {
 }
 
 bool isSoft(const scenes::Light& light, const FrameSettings& settings) {
-    return scenes::hasSize(light) && infoOf(settings.shadowFilter).heedsSizes;
+    return scenes::hasSize(light) && infoOf(settings.shadowFilter).usesSizes;
 }
 
 /// Shadow rays, or samples of the light's disk, per pixel.
@@ -62,7 +62,7 @@ std::size_t shadowIterations(const FrameSpec& spec, const scenes::Light& light) 
     const std::size_t samples = shadowSamples(light, settings);
     if (spec.tracesShadows()) return (samples + passingRays(spec)) * rayIterations(casterSteps(spec.shadowSamples));
     const std::size_t faces = scenes::infoOf(light.type).hasPosition() ? 1 : std::size_t(settings.shadowMaps.cascades);
-    const std::size_t ofFilter = infoOf(settings.shadowFilter).heedsWidth
+    const std::size_t ofFilter = infoOf(settings.shadowFilter).usesWidth
                                      ? pcfIterations(std::size_t(settings.shadowMaps.widthTexels))
                                  : isSoft(light, settings) ? pcssIterations(samples)
                                                            : 0;
@@ -73,7 +73,7 @@ std::size_t shadowIterations(const FrameSpec& spec, const scenes::Light& light) 
 std::string whyNotSoft(const FrameSpec& spec) {
     if (spec.shadowedLights == 0) return "there are no shadows";
     const ShadowFilterInfo& filter = infoOf(spec.settings.shadowFilter);
-    if (!filter.heedsSizes) return fmt::format("the shadow filter {} heeds no sizes of lights", filter.name);
+    if (!filter.usesSizes) return fmt::format("the shadow filter {} ignores the sizes of lights", filter.name);
     return "no light in view that casts shadows has a size";
 }
 
@@ -173,15 +173,15 @@ void addLights(std::vector<graph::Plan::LeftOut>& out, const FeatureSet& feature
 std::string whyNoShadows(const scenes::Scene& scene, const PackedLights& lights, const scenes::ShadowRequest& request) {
     using Kind = scenes::ShadowRequest::Kind;
     if (lights.texels.empty()) return "no light is on and in view";
-    const bool isAsked = std::ranges::any_of(
+    const bool isRequested = std::ranges::any_of(
         lights.sceneIndex, [&](int light) { return scenes::castsShadow(scene, std::size_t(light), request); });
-    if (isAsked) {
+    if (isRequested) {
         const std::size_t transparent = scenes::casterCounts(scene).transparent;
         return transparent == 0 ? "no surface casts any" : "no surface casts any; " + transparentText(transparent);
     }
     if (request.kind == Kind::None || (request.kind == Kind::First && request.lights == 0))
         return "no light is to cast any";
-    if (request.kind == Kind::Asked) return "no light in view has castsShadow";
+    if (request.kind == Kind::Scene) return "no light in view has castsShadow";
     return fmt::format("none of the first {} is on and in view", lightsText(std::size_t(request.lights)));
 }
 
@@ -255,12 +255,12 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
                         std::size_t seenLights) {
     FeatureSet surfaces = surfaceFeatures(scene, settings.prune, settings.subsurface);
     // Without objects to diffuse there is no atlas, so the feature is removed even without pruning.
-    if (!showsLitPicture(settings.view) || !scenes::anySpreads(scene, settings.subsurface))
+    if (!showsLitPicture(settings.view) || !scenes::anyDiffuses(scene, settings.subsurface))
         surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
     return makeSpec(scene, lights, settings, surfaces, seenLights);
 }
 
-FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& object, const PackedLights& lights,
+FrameSpec makeDiffusionSpec(const scenes::Scene& scene, const DiffusionObject& object, const PackedLights& lights,
                             const FrameSettings& settings) {
     FeatureSet surfaces = settings.prune ? enteringFeatures(scene, object.material, object.mesh) : allFeatures();
     surfaces.has.reset(std::size_t(Feature::SubsurfaceDiffusion));
@@ -270,15 +270,16 @@ FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& o
     spec.showsEnvironment = false;
     spec.showsBehindGlass = spec.blursBehindGlass = spec.scattersBySheets = false;
     spec.drawsFarSides = spec.passesByLobes = false;
-    const auto spreadOver = [&](int border) {
-        return lightSpread(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
-                           texelMetresOf(object.sideMetres, spec.spreadTexels(), border), settings.diffusion.half);
+    const auto kernelWithBorder = [&](int border) {
+        return diffusionKernel(scene.materials[std::size_t(object.material)].subsurface, settings.diffusion.gaussians,
+                               texelMetresOf(object.sideMetres, spec.diffusionTexels(), border),
+                               settings.diffusion.half);
     };
     // Border and texel size depend on each other. Without a border texels are smallest, and the diffusion radius in
     // texels is largest.
-    const LightSpread widest = spreadOver(0);
+    const DiffusionKernel widest = kernelWithBorder(0);
     spec.gutterTexels = frame::gutterTexels(widest.levels, widest.texelMetres);
-    spec.spread = spreadOver(borderTexels(spec.gutterTexels, spec.spreadTexels()));
+    spec.diffusionKernel = kernelWithBorder(borderTexels(spec.gutterTexels, spec.diffusionTexels()));
     return spec;
 }
 
@@ -328,7 +329,7 @@ bool FrameSpec::usesLobeShapes() const {
 }
 
 bool FrameSpec::usesAreaSamples() const {
-    return features.areaLights() && infoOf(settings.area.lights).takesSamples;
+    return features.areaLights() && infoOf(settings.area.lights).usesSamples;
 }
 
 bool FrameSpec::compensatesLobes() const {

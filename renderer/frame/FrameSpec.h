@@ -50,20 +50,22 @@ struct FrameSpec {
     std::vector<scenes::TextureSlot> withoutTextures;
     bool hasNoRoomBehindGlass = false; ///< refraction omits surfaces only for lack of texture units
 
-    /// By cell of the view's SpreadLightAtlas: the specs that render irradiance into the texels of diffusing objects.
-    std::vector<FrameSpec> spreadingViews;
-    std::optional<LightSpread> spread; ///< set in the spec of a diffusing object
-    int gutterTexels = 0;              ///< of its UV atlas (Diffusion.h)
+    /// By cell of the view's DiffusionAtlas: the specs that render irradiance into the texels of diffusing objects.
+    std::vector<FrameSpec> diffusionViews;
+    std::optional<DiffusionKernel> diffusionKernel; ///< set in the spec of a diffusing object
+    int gutterTexels = 0;                           ///< of its UV atlas (Diffusion.h)
 
-    bool isInAtlas() const { return spread.has_value(); }
+    bool isInAtlas() const { return diffusionKernel.has_value(); }
     /// Side of an object's UV atlas at the diffusion resolution, in texels.
-    int spreadTexels() const { return std::max(1, settings.diffusion.sideTexels / (settings.diffusion.half ? 2 : 1)); }
-    SpreadLightAtlas spreadLightAtlas() const { return frame::spreadLightAtlas(spreadingViews.size(), spreadTexels()); }
-    /// Bytes of the SpreadLightAtlas and, per object, of its irradiance and the undiffused part of it.
-    double spreadLightBytes() const {
-        const glm::dvec2 texels(spreadLightAtlas().texels());
-        const double side = double(spreadTexels());
-        return double(sizeof(glm::vec4)) * (texels.x * texels.y + 2.0 * side * side * double(spreadingViews.size()));
+    int diffusionTexels() const {
+        return std::max(1, settings.diffusion.sideTexels / (settings.diffusion.half ? 2 : 1));
+    }
+    DiffusionAtlas diffusionAtlas() const { return frame::diffusionAtlas(diffusionViews.size(), diffusionTexels()); }
+    /// Bytes of the DiffusionAtlas and, per object, of its irradiance and the undiffused part of it.
+    double diffusionBytes() const {
+        const glm::dvec2 texels(diffusionAtlas().texels());
+        const double side = double(diffusionTexels());
+        return double(sizeof(glm::vec4)) * (texels.x * texels.y + 2.0 * side * side * double(diffusionViews.size()));
     }
 
     bool usesEnvironmentMap() const;     ///< at full resolution
@@ -103,7 +105,7 @@ FrameSpec makeFrameSpec(const scenes::Scene& scene, const PackedLights& lights, 
                         std::size_t seenLights = 0);
 
 /// The spec that renders the irradiance of a diffusing object for the view of `settings`, with the lights in range.
-FrameSpec makeSpreadingSpec(const scenes::Scene& scene, const SpreadingObject& object, const PackedLights& lights,
+FrameSpec makeDiffusionSpec(const scenes::Scene& scene, const DiffusionObject& object, const PackedLights& lights,
                             const FrameSettings& settings);
 
 /// Why there are no shadows.

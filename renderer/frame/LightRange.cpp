@@ -49,7 +49,7 @@ glm::dvec3 mostColor(const scenes::Light& light) {
     return mostFactor(light) * lightColor(light);
 }
 
-bool takesTolerance(const scenes::Light& light) {
+bool mayBeTruncated(const scenes::Light& light) {
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     if (info.isArea) return std::isinf(light.rangeMetres);
     return info.hasPosition() && light.falloff == scenes::Falloff::Attenuation;
@@ -59,7 +59,7 @@ double reachMetres(const scenes::Light& light, double rangeTolerance) {
     const scenes::LightTypeInfo& info = scenes::infoOf(light.type);
     if (!info.hasPosition()) return scenes::kInfinity;
     if (info.isArea && !scenes::hasSurface(light)) return 0.0;
-    if (!takesTolerance(light)) return light.rangeMetres;
+    if (!mayBeTruncated(light)) return light.rangeMetres;
     if (rangeTolerance == 0.0) return scenes::kInfinity;
     const double brightest = brightestOf(light);
     if (info.isArea) return areaReachMetres(light, brightest, rangeTolerance);
@@ -67,7 +67,7 @@ double reachMetres(const scenes::Light& light, double rangeTolerance) {
 }
 
 void TruncatedLights::add(const scenes::Light& light, double rangeTolerance) {
-    if (!takesTolerance(light) || glm::vec3(mostColor(light)) == glm::vec3(0.0f)) return;
+    if (!mayBeTruncated(light) || glm::vec3(mostColor(light)) == glm::vec3(0.0f)) return;
     if (scenes::infoOf(light.type).isArea && !scenes::hasSurface(light)) return;
     const double reach = reachMetres(light, rangeTolerance);
     if (std::isinf(reach)) {

@@ -16,7 +16,7 @@ glm::dvec3 lightColor(const scenes::Light& light);
 glm::dvec3 mostColor(const scenes::Light& light);
 
 /// Whether a range tolerance may truncate the light: of Falloff::Attenuation, or an area light without a range.
-bool takesTolerance(const scenes::Light& light);
+bool mayBeTruncated(const scenes::Light& light);
 
 /// Distance in metres from its position beyond which the light is exactly 0: 0 if it is 0 everywhere, infinite if it
 /// never is. `rangeTolerance` truncates lights of Falloff::Attenuation where their largest channel has fallen to it, in
@@ -24,7 +24,7 @@ bool takesTolerance(const scenes::Light& light);
 /// whole surface is as bright as its brightest point; 0 truncates none. Ignores the light's cone.
 double reachMetres(const scenes::Light& light, double rangeTolerance);
 
-/// Effect of a range tolerance on the lights with takesTolerance().
+/// Effect of a range tolerance on the lights with mayBeTruncated().
 struct TruncatedLights {
     std::size_t ended = 0;        ///< truncated at a distance between the two below
     std::size_t endless = 0;      ///< B = C = 0: no falloff; without a tolerance, all
@@ -32,7 +32,7 @@ struct TruncatedLights {
     double shortestMetres = 0.0;
     double longestMetres = 0.0;
 
-    /// Counts a light. Ignores black lights, area lights without a surface, and lights without takesTolerance().
+    /// Counts a light. Ignores black lights, area lights without a surface, and lights without mayBeTruncated().
     void add(const scenes::Light& light, double rangeTolerance);
     std::size_t sum() const { return ended + endless + belowAlready; }
 };

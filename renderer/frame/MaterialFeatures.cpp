@@ -98,7 +98,7 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
         set.add(featureOf(scenes::TextureSlot(slot)));
         set.add(Feature::TexCoord1, use.texCoordSet == 1);
         set.add(Feature::MixedFilters,
-                gpu::takesNearest(use.sampler.magnification) != gpu::takesNearest(use.sampler.minification));
+                gpu::usesNearest(use.sampler.magnification) != gpu::usesNearest(use.sampler.minification));
         set.add(Feature::TextureTransform, use.transform != scenes::TextureTransform{});
     }
     const bool normalMap = material.texture(scenes::TextureSlot::Normal).image != scenes::kNone;
@@ -114,11 +114,11 @@ void addMaterial(FeatureSet& set, const scenes::Material& material, scenes::Subs
     const scenes::SubsurfaceMethodInfo& method = infoOf(scenes::subsurfaceOf(material, subsurface));
     set.add(Feature::SubsurfaceWrap, method.wraps);
     // With diffusion, transmitted light is already part of the diffused irradiance.
-    set.add(Feature::SubsurfacePassage, method.passes && !method.spreads);
-    if (!method.spreads) return;
+    set.add(Feature::SubsurfacePassage, method.passes && !method.diffuses);
+    if (!method.diffuses) return;
     set.add(Feature::SubsurfaceDiffusion);
-    // Surfaces store diffused light as emission, and their F0 as that of a dielectric: takeSpreadLight() of
-    // shaders/lib/raster/spread_light.glsl.
+    // Surfaces store diffused light as emission, and their F0 as that of a dielectric: takeDiffusedLight() of
+    // shaders/lib/raster/diffused_light.glsl.
     set.add(Feature::Emission);
     set.add(Feature::VaryingMaterials);
     set.add(Feature::Specular, model.microsurface == scenes::Microsurface::MetallicRoughness &&

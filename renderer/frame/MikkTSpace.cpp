@@ -14,7 +14,7 @@ namespace tessera::frame {
 namespace {
 
 using Corner = std::size_t; ///< position in the mesh's indices: three per triangle
-constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 /// A difference of vectors is rounding noise if it is shorter than this fraction of them.
 constexpr double kSmallestShare = 1e-12;
@@ -73,14 +73,14 @@ struct Face {
 class MikkTSpace {
 public:
     MikkTSpace(const scenes::Mesh& mesh, const std::vector<glm::vec2>& uv, const glm::dmat2& textureFromUv)
-        : mesh_(mesh), uv_(uv), vertices_(weldedVertices(mesh, uv)), across_(mesh.indices.size(), kNobody),
-          groupOf_(mesh.indices.size(), kNobody) {
+        : mesh_(mesh), uv_(uv), vertices_(weldedVertices(mesh, uv)), across_(mesh.indices.size(), kNone),
+          groupOf_(mesh.indices.size(), kNone) {
         for (Corner corner = 0; corner + 2 < mesh.indices.size(); corner += 3)
             faces_.push_back(faceAt(corner, textureFromUv));
         findNeighbours();
         for (Corner corner = 0; corner < 3 * faces_.size(); ++corner) {
             const Face& face = faces_[corner / 3];
-            if (!face.hasNoArea && !face.saysNothing && groupOf_[corner] == kNobody) gather(corner);
+            if (!face.hasNoArea && !face.saysNothing && groupOf_[corner] == kNone) gather(corner);
         }
         joinFacesWithoutArea();
     }
@@ -91,8 +91,8 @@ public:
         for (Corner corner = 0; corner < groupOf_.size(); ++corner) {
             const std::uint32_t group = groupOf_[corner];
             tangents.push_back(
-                group != kNobody ? tangents_[group]
-                                 : glm::vec4(anyPerpendicular(glm::dvec3(mesh_.normalsOS[mesh_.indices[corner]])), -1));
+                group != kNone ? tangents_[group]
+                               : glm::vec4(anyPerpendicular(glm::dvec3(mesh_.normalsOS[mesh_.indices[corner]])), -1));
         }
         return tangents;
     }
@@ -147,7 +147,7 @@ private:
                 return sides[other].low == sides[i].low && sides[other].high == sides[i].high;
             };
             if (!isBetweenTheSame(oldest)) oldest = i;
-            while (oldest < i && across_[sides[oldest].corner] != kNobody) ++oldest;
+            while (oldest < i && across_[sides[oldest].corner] != kNone) ++oldest;
             if (oldest == i || vertex(sides[oldest].corner) == vertex(sides[i].corner)) continue;
             across_[sides[oldest].corner] = std::uint32_t(sides[i].corner);
             across_[sides[i].corner] = std::uint32_t(sides[oldest].corner);
@@ -167,7 +167,7 @@ private:
             const Corner corner = open.back();
             open.pop_back();
             Face& face = faces_[corner / 3];
-            if (groupOf_[corner] != kNobody) continue;
+            if (groupOf_[corner] != kNone) continue;
             if (face.sense == 0) face.sense = sense; // the first group that reaches it decides
             if (face.sense != sense) continue;
             groupOf_[corner] = group;
@@ -179,8 +179,8 @@ private:
                 angles += angle;
             }
             const std::uint32_t ahead = across_[corner], behind = across_[turned(corner, 2)];
-            if (ahead != kNobody) open.push_back(turned(ahead, 1));
-            if (behind != kNobody) open.push_back(behind);
+            if (ahead != kNone) open.push_back(turned(ahead, 1));
+            if (behind != kNone) open.push_back(behind);
         }
         if (angles > kSmallestAngle) sum = weighedSum / angles;
         const double length = glm::length(sum);

@@ -168,7 +168,7 @@ void addShadow(const scenes::Light& light, const FrameSettings& settings, Packed
     packed.texels.color.w += float(LIGHT_SHADOWED);
     features.add(Feature::Shadows);
     features.add(Feature::ShadowMaps, infoOf(settings.shadowFilter).usesMaps);
-    features.add(Feature::SoftShadows, scenes::hasSize(light) && infoOf(settings.shadowFilter).heedsSizes);
+    features.add(Feature::SoftShadows, scenes::hasSize(light) && infoOf(settings.shadowFilter).usesSizes);
 }
 
 } // namespace

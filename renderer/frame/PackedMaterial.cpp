@@ -41,8 +41,8 @@ glm::uint materialFlags(const scenes::Material& material) {
 
 /// uvRow1[slot].w of the constants, without the part that depends on the texture's format.
 int textureModes(const scenes::Sampler& sampler) {
-    const bool magnifiesNearest = gpu::takesNearest(sampler.magnification);
-    const bool minifiesNearest = gpu::takesNearest(sampler.minification);
+    const bool magnifiesNearest = gpu::usesNearest(sampler.magnification);
+    const bool minifiesNearest = gpu::usesNearest(sampler.minification);
     // OpenGL 4.5 core, section 8.15: with linear magnification and nearest texels of mip levels in minification,
     // magnification applies up to level of detail 0.5.
     const bool halfLevel = !magnifiesNearest && minifiesNearest && sampler.minification != scenes::Filter::Nearest;

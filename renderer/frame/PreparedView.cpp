@@ -30,7 +30,7 @@ private:
 
 } // namespace
 
-std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& object, const PreparedView& prepared,
+std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusionObject& object, const PreparedView& prepared,
                            std::uint64_t casterRevision) {
     const FrameSettings& settings = prepared.spec.settings;
     Hash hash;
@@ -45,14 +45,14 @@ std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& ob
     hash.addFloats(std::vector{packMaterial(enteredMaterial(scene.materials[std::size_t(object.material)]), row)});
     // Light is transmitted only through objects of equal absorption, so all rows count.
     hash.addFloats(subsurfaces.rows);
-    const LightSpread& spread = prepared.spec.spread.value();
+    const DiffusionKernel& kernel = prepared.spec.diffusionKernel.value();
     const auto addWeight = [&](const glm::dvec3& weight) {
         for (int channel = 0; channel < 3; ++channel) hash.add(weight[channel]);
     };
-    addWeight(spread.inPixels);
-    addWeight(spread.inTexels);
-    for (const DiffusionLevel& level : spread.levels) {
-        hash.add(level.spreadSquareMetres);
+    addWeight(kernel.inPixels);
+    addWeight(kernel.inTexels);
+    for (const DiffusionLevel& level : kernel.levels) {
+        hash.add(level.totalSquareMetres);
         addWeight(level.weight);
     }
     hash.add(casterRevision);

@@ -25,15 +25,15 @@ struct PreparedView {
     std::vector<shared::ShadowFaceTexels> shadowFaces; ///< of the shadow maps
     std::vector<shared::CullLight> cullLights;         ///< parallel to lights.texels; empty without light lists
 
-    /// By cell of the view's SpreadLightAtlas: the diffusing objects, and the views that render their irradiance.
-    std::vector<SpreadingObject> spreadingObjects;
-    std::vector<PreparedView> spreadingViews;
+    /// By cell of the view's DiffusionAtlas: the diffusing objects, and the views that render their irradiance.
+    std::vector<DiffusionObject> diffusionObjects;
+    std::vector<PreparedView> diffusionViews;
 
     culling::FrameConstants constants() const { return {camera.constants, lighting}; }
 };
 
 /// Hash of all inputs of an object's diffused light that can change.
-std::uint64_t diffusionKey(const scenes::Scene& scene, const SpreadingObject& object, const PreparedView& prepared,
+std::uint64_t diffusionKey(const scenes::Scene& scene, const DiffusionObject& object, const PreparedView& prepared,
                            std::uint64_t casterRevision);
 
 } // namespace tessera::frame

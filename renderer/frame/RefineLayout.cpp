@@ -17,8 +17,8 @@ constexpr std::string_view kBright = "a colour of the scene may exceed 1, which 
 constexpr std::string_view kGrazing = "a material masks by the half vector, which magnifies what n.v is off at grazing "
                                       "angles";
 
-constexpr std::string_view kSpread = "light that has spread over a surface is stored as emission, and spans more "
-                                     "powers of ten than half floats";
+constexpr std::string_view kDiffusion = "light diffused over a surface is stored as emission, and spans more "
+                                        "powers of ten than half floats";
 
 constexpr std::string_view kFilm =
     "a thin film may reflect hardly anything, of which the packed field has too few steps";
@@ -118,8 +118,8 @@ std::vector<Refinement> refinements(const GBufferLayout& layout, const scenes::S
         found.push_back({Channel::Specular, Encoding::Exact, kBright});
     else if (layout[Channel::Specular] != Encoding::Exact && storesFilms(scene))
         found.push_back({Channel::Specular, Encoding::Exact, kFilm});
-    if (layout[Channel::Emission] != Encoding::Exact && scenes::anySpreads(scene, subsurface))
-        found.push_back({Channel::Emission, Encoding::Exact, kSpread});
+    if (layout[Channel::Emission] != Encoding::Exact && scenes::anyDiffuses(scene, subsurface))
+        found.push_back({Channel::Emission, Encoding::Exact, kDiffusion});
     else if (layout[Channel::Emission] != Encoding::Exact && scene.hook && scene.hook->changesSurfaces)
         found.push_back({Channel::Emission, Encoding::Exact, kHooked});
     return found;

@@ -134,11 +134,11 @@ SceneGpu::Geometry SceneGpu::makeGeometry(const scenes::Scene& scene, const Feat
 
 SceneGpu::Draws SceneGpu::makeDraws(const VertexStreams::Ranges& ranges) const {
     Draws draws{transparentMaterials(scene_), makeDrawList(scene_), {}};
-    const std::vector<SpreadingObject> spreading = spreadingObjects(scene_, subsurface_, {});
+    const std::vector<DiffusionObject> diffusing = diffusionObjects(scene_, subsurface_, {});
     for (Draw& draw : draws.list.draws) {
         draws.ranges.push_back(ranges.at({draw.mesh, draw.material}));
-        const auto own = std::ranges::find(spreading, draw.instance, &SpreadingObject::instance);
-        if (own != spreading.end()) draw.spreadingNumber = 1 + int(own - spreading.begin());
+        const auto own = std::ranges::find(diffusing, draw.instance, &DiffusionObject::instance);
+        if (own != diffusing.end()) draw.diffusionNumber = 1 + int(own - diffusing.begin());
     }
     return draws;
 }

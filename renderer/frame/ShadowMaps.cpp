@@ -95,12 +95,12 @@ std::string shadowFaceName(int i, int faces) {
 
 int shadowTapTexels(const FrameSettings& settings) {
     // Half of the square, and a texel for taps between texels.
-    return infoOf(settings.shadowFilter).heedsWidth ? settings.shadowMaps.widthTexels / 2 + 2 : 1;
+    return infoOf(settings.shadowFilter).usesWidth ? settings.shadowMaps.widthTexels / 2 + 2 : 1;
 }
 
 int shadowBorderTexels(const FrameSettings& settings, const scenes::Light& light, int sideTexels) {
     return int(shared::shadowBorderTexels(float(sideTexels), float(shadowTapTexels(settings)),
-                                          infoOf(settings.shadowFilter).heedsSizes && scenes::hasSize(light)));
+                                          infoOf(settings.shadowFilter).usesSizes && scenes::hasSize(light)));
 }
 
 ShadowMaps makeShadowMaps(const scenes::Scene& scene, const PackedLights& lights, const CameraView& view,

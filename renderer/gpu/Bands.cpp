@@ -47,7 +47,7 @@ int wholeSteps(int rows) {
 }
 
 /// Waits for the issued draws and throws graph::Interrupted if givesUp() returns true. Only under BandedDrawing.
-void askToGoOn() {
+void finishOrGiveUp() {
     glFinish();
     if (!state.givesUp()) return;
     state.givesUp = nullptr;
@@ -96,7 +96,7 @@ double drawBands(const std::function<void()>& draw, Bands& bands, const Shares& 
                 shares.before + (shares.after - shares.before) * pixels / (double(area.width) * area.height);
             if (share > 0.0) {
                 state.progress.share = share;
-                askToGoOn();
+                finishOrGiveUp();
             }
             const int width = std::min(bands.columns, area.width - column);
             const double ms = drawPiece(draw, column, row, width, height);
@@ -137,7 +137,7 @@ void endBandedPass() {
     if (!state.givesUp) return;
     ++state.progress.passes;
     state.progress.share = 0.0;
-    askToGoOn();
+    finishOrGiveUp();
 }
 
 BandProgress bandProgress() {

@@ -161,10 +161,10 @@ LinkedProgram::LinkedProgram(Id linked) : id(std::move(linked)) {
     GLint blocks = 0;
     glGetProgramInterfaceiv(id.value(), GL_UNIFORM_BLOCK, GL_ACTIVE_RESOURCES, &blocks);
     for (GLint block = 0; block < blocks; ++block) {
-        constexpr std::array<GLenum, 2> kAsked{GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
+        constexpr std::array<GLenum, 2> kProperties{GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE};
         std::array<GLint, 2> values{};
-        glGetProgramResourceiv(id.value(), GL_UNIFORM_BLOCK, GLuint(block), GLsizei(kAsked.size()), kAsked.data(),
-                               GLsizei(values.size()), nullptr, values.data());
+        glGetProgramResourceiv(id.value(), GL_UNIFORM_BLOCK, GLuint(block), GLsizei(kProperties.size()),
+                               kProperties.data(), GLsizei(values.size()), nullptr, values.data());
         uniformBlockBytes[std::uint32_t(values[0])] = std::size_t(values[1]);
     }
 }

@@ -147,9 +147,9 @@ int Program::sampledTextures(Stage stage) const {
     glGetProgramInterfaceiv(id(), GL_UNIFORM, GL_ACTIVE_RESOURCES, &uniforms);
     int sampled = 0;
     for (GLint uniform = 0; uniform < uniforms; ++uniform) {
-        const std::array<GLenum, 3> asked{GL_TYPE, GL_ARRAY_SIZE, referencedBy(stage)};
+        const std::array<GLenum, 3> properties{GL_TYPE, GL_ARRAY_SIZE, referencedBy(stage)};
         std::array<GLint, 3> values{};
-        glGetProgramResourceiv(id(), GL_UNIFORM, GLuint(uniform), GLsizei(asked.size()), asked.data(),
+        glGetProgramResourceiv(id(), GL_UNIFORM, GLuint(uniform), GLsizei(properties.size()), properties.data(),
                                GLsizei(values.size()), nullptr, values.data());
         if (isSampler(GLenum(values[0])) && values[2] != 0) sampled += values[1];
     }

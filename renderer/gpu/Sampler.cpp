@@ -48,12 +48,12 @@ GLint glFilter(scenes::Filter filter) {
 
 /// Magnification has no mip levels.
 GLint glMagnification(scenes::Filter filter) {
-    return takesNearest(filter) ? GL_NEAREST : GL_LINEAR;
+    return usesNearest(filter) ? GL_NEAREST : GL_LINEAR;
 }
 
 } // namespace
 
-bool takesNearest(scenes::Filter filter) {
+bool usesNearest(scenes::Filter filter) {
     return filter == scenes::Filter::Nearest || filter == scenes::Filter::NearestMipmapNearest ||
            filter == scenes::Filter::NearestMipmapLinear;
 }

@@ -8,7 +8,7 @@
 namespace tessera::gpu {
 
 /// Whether a filter reads single texels of a mip level.
-bool takesNearest(scenes::Filter filter);
+bool usesNearest(scenes::Filter filter);
 
 /// A sampler object: filtering and wrapping of a texture.
 class Sampler {

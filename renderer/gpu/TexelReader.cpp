@@ -33,7 +33,7 @@ void TexelReader::request(std::span<const Texture* const> textures, glm::ivec2 t
                              GLsizei(kTexelBytes), reinterpret_cast<void*>(std::uintptr_t(i * kTexelBytes)));
     }
     glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
-    throwIfFailed("asking for single texels");
+    throwIfFailed("requesting single texels");
     requested_ = textures.size();
     fence_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }

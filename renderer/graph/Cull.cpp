@@ -65,7 +65,7 @@ std::string whyCulled(const Graph& graph, const Flow& flow, std::uint32_t pass) 
             addOnce(reasons, fmt::format("'{}' is used only by {}, left out as well", name, listNames(users, "and")));
     }
     if (!writes) return "it writes nothing and is not kept";
-    if (!unread.empty()) reasons.insert(reasons.begin(), fmt::format("nobody needs {}", listNames(unread, "or")));
+    if (!unread.empty()) reasons.insert(reasons.begin(), fmt::format("nothing needs {}", listNames(unread, "or")));
     std::string why;
     for (const std::string& reason : reasons) why += (why.empty() ? "" : "; ") + reason;
     return why;

@@ -71,7 +71,7 @@ public:
     }
     const gpu::Program& program(std::size_t number) const override {
         if (number >= pass_.programs.size())
-            throw std::logic_error(fmt::format("asked for its program {}, and declared {}; name it in its setup",
+            throw std::logic_error(fmt::format("requested its program {}, and declared {}; name it in its setup",
                                                number, pass_.programs.size()));
         if (execution_.programs_ == nullptr) throw std::logic_error("the execution was given no programs");
         return execution_.programs_->get(pass_.programs[number]);
@@ -103,14 +103,14 @@ private:
     template <typename Tag>
     void requireDeclared(Handle<Tag> handle) const {
         if (handle.resource >= execution_.graph_.resources().size())
-            throw std::logic_error(fmt::format("asked for an invalid {} handle", kKind<Tag>));
+            throw std::logic_error(fmt::format("requested an invalid {} handle", kKind<Tag>));
         const bool declared = std::any_of(pass_.uses.begin(), pass_.uses.end(), [&](const Graph::Use& use) {
             return use.resource == handle.resource && use.isTexture == std::is_same_v<Handle<Tag>, TextureHandle> &&
                    (use.version == handle.version || use.handed == handle.version);
         });
         if (!declared)
             throw std::logic_error(
-                fmt::format("asked for version {} of '{}', which it did not declare; read or write it in its setup",
+                fmt::format("requested version {} of '{}', which it did not declare; read or write it in its setup",
                             handle.version, execution_.graph_.resources()[handle.resource].name));
     }
 
@@ -248,19 +248,19 @@ void Execution::requireKept(std::uint32_t resource, std::uint32_t version, bool 
     const char* kind = isTexture ? "texture" : "buffer";
     if (resource >= graph_.resources().size() ||
         std::holds_alternative<TextureDesc>(graph_.resources()[resource].desc) != isTexture)
-        throw std::logic_error(fmt::format("an execution was asked for an invalid {} handle", kind));
+        throw std::logic_error(fmt::format("an execution got a request for an invalid {} handle", kind));
     const std::string& name = graph_.resources()[resource].name;
-    if (!hasRun_) throw std::logic_error(fmt::format("an execution was asked for '{}' before run()", name));
+    if (!hasRun_) throw std::logic_error(fmt::format("an execution got a request for '{}' before run()", name));
     if (places_[resource].texture != nullptr ||
         (places_[resource].buffer != nullptr && graph_.resources()[resource].imported))
         return;
     for (const Graph::Use& output : graph_.outputs())
         if (output.resource == resource && output.version == version && compiled_.resources[resource].first >= 0)
             return;
-    throw std::logic_error(fmt::format(
-        "an execution was asked for version {} of '{}', which is no output of the frame, so that other data may have "
-        "replaced it; declare it with Graph::output()",
-        version, name));
+    throw std::logic_error(fmt::format("an execution got a request for version {} of '{}', which is no output of the "
+                                       "frame, so that other data may have "
+                                       "replaced it; declare it with Graph::output()",
+                                       version, name));
 }
 
 const gpu::Texture& Execution::resolve(TextureHandle handle) const {
@@ -273,7 +273,7 @@ const gpu::Buffer& Execution::resolve(BufferHandle handle) const {
     if (physical >= 0) return backend_.buffer(physical);
     const gpu::Buffer* const buffer = places_[handle.resource].buffer;
     if (buffer == nullptr)
-        throw std::logic_error(fmt::format("asked for '{}' before any pass said how many bytes it holds",
+        throw std::logic_error(fmt::format("requested '{}' before any pass set its size in bytes",
                                            graph_.resources()[handle.resource].name));
     return *buffer;
 }

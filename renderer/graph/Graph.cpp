@@ -161,9 +161,9 @@ void Graph::output(BufferHandle handle) {
 }
 
 const TextureDesc& Graph::desc(TextureHandle handle) const {
-    if (handle.resource == kInvalid) throw std::logic_error("Graph::desc was asked about an invalid texture handle");
+    if (handle.resource == kInvalid) throw std::logic_error("Graph::desc got an invalid texture handle");
     if (handle.resource >= resources_.size() || !std::holds_alternative<TextureDesc>(resources_[handle.resource].desc))
-        throw std::logic_error("Graph::desc was asked about a texture handle of another graph");
+        throw std::logic_error("Graph::desc got a texture handle of another graph");
     return std::get<TextureDesc>(resources_[handle.resource].desc);
 }
 

@@ -97,7 +97,7 @@ std::optional<std::size_t> lineOfFirst(const std::vector<std::string>& names, co
     return std::nullopt;
 }
 
-bool isAskedForAsField(const std::string& name, const std::vector<std::string>& code) {
+bool isUsedAsField(const std::string& name, const std::vector<std::string>& code) {
     return std::ranges::any_of(code, [&](const std::string& line) {
         for (std::size_t at = placeOfName(line, name); at != std::string_view::npos;
              at = placeOfName(line, name, at + 1))
@@ -158,7 +158,7 @@ std::string hookFaultText(const SourceTree& tree, const ProgramDesc& desc, std::
                            errors.find("undefined") != std::string::npos ||  // NVIDIA
                            errors.find("no function with name") != std::string::npos;
     if (isPlaced && isUnknown) text += fmt::format("\n{}", kNamesRemedy);
-    if (std::ranges::any_of(names, [&](const std::string& name) { return isAskedForAsField(name, code); }))
+    if (std::ranges::any_of(names, [&](const std::string& name) { return isUsedAsField(name, code); }))
         text += "\n" + hookFields(tree, desc);
     return text;
 }

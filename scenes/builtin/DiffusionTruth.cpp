@@ -46,7 +46,7 @@ Mesh plateWithHole(const glm::dvec3& middleWS, double halfSide, double radius) {
 
 } // namespace
 
-glm::dvec3 spreadStep(double beyondMetres) {
+glm::dvec3 diffusedStep(double beyondMetres) {
     glm::dvec3 share(0.0);
     forEachGaussian([&](double sigma, const glm::dvec3& weight) {
         share += weight * (0.5 * std::erfc(-beyondMetres / (std::numbers::sqrt2 * sigma)));
@@ -54,7 +54,7 @@ glm::dvec3 spreadStep(double beyondMetres) {
     return share;
 }
 
-glm::dvec3 spreadDot(double distanceMetres) {
+glm::dvec3 diffusedDot(double distanceMetres) {
     // Integrates over the dot's chords perpendicular to the line to its middle: a Gaussian along the line times an
     // error function across it.
     constexpr int kChords = 128;
@@ -83,7 +83,7 @@ Scene makeDiffusionTruth(const LoadOptions& options, LoadLedger&) {
     skin.subsurface.method = SubsurfaceMethod::TextureSpaceDiffusion;
     skin.subsurface.scaleMetres = float(kTruthScaleMetres);
     skin.castsShadow = false;
-    const int spreading = addMaterial(scene, skin);
+    const int diffusing = addMaterial(scene, skin);
     Material dark = lambert("plate", glm::vec3(0.1f));
     dark.doubleSided = true;
     const int plate = addMaterial(scene, dark);
@@ -91,7 +91,7 @@ Scene makeDiffusionTruth(const LoadOptions& options, LoadLedger&) {
         Mesh square;
         appendQuad(square, {x - 0.5, 0.0, 0.5}, {x + 0.5, 0.0, 0.5}, {x + 0.5, 0.0, -0.5}, {x - 0.5, 0.0, -0.5});
         const char* const name = x < 0.0 ? "half lit" : "dot";
-        addNode(scene, name, glm::dmat4(1.0), {{addMesh(scene, name, std::move(square)), spreading}});
+        addNode(scene, name, glm::dmat4(1.0), {{addMesh(scene, name, std::move(square)), diffusing}});
     }
     // The same edge without subsurface scattering.
     Mesh strip;

@@ -11,8 +11,8 @@ inline constexpr glm::dvec3 kTruthDotWS{0.6, 0.0, 0.0}; ///< middle of the dot o
 inline constexpr double kTruthDotRadiusMetres = 0.02;
 
 /// Fraction of the sun's irradiance that is diffused to the first square at `beyondMetres` beyond the edge, by channel.
-glm::dvec3 spreadStep(double beyondMetres);
+glm::dvec3 diffusedStep(double beyondMetres);
 /// The same on the second square at `distanceMetres` from the middle of the dot. By quadrature, to 1e-6.
-glm::dvec3 spreadDot(double distanceMetres);
+glm::dvec3 diffusedDot(double distanceMetres);
 
 } // namespace tessera::scenes::builtin

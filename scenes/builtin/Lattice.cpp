@@ -110,7 +110,7 @@ void addLights(Scene& scene, int count) {
 Scene makeLattice(const LoadOptions& options, LoadLedger&) {
     Scene scene;
     scene.name = "lattice";
-    scene.options.wishes["size"] = std::vector<double>{1280, 720};
+    scene.options.requested["size"] = std::vector<double>{1280, 720};
     addMaterials(scene);
     addSolids(scene);
     addLights(scene, options.lights.value_or(kDefaultLatticeLights));

@@ -87,7 +87,7 @@ Image drawNormals(const std::string& name, int width, int height, const std::fun
 }
 
 Image drawRadiance(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& radiance,
-                   const std::function<void(double)>& told) {
+                   const std::function<void(double)>& progress) {
     Image image = blank(name, TexelFormat::Rgba32Float, width, height);
     std::atomic<int> rows = 0;
     const std::size_t rowBytes = static_cast<std::size_t>(width) * sizeof(glm::vec4);
@@ -97,7 +97,7 @@ Image drawRadiance(const std::string& name, int width, int height, const std::fu
             const glm::vec4 texel(glm::vec3(radiance(x, y)), 1.0f);
             std::memcpy(out, &texel, sizeof(texel));
         }
-        if (told) told(++rows / double(height));
+        if (progress) progress(++rows / double(height));
     });
     return image;
 }

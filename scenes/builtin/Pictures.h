@@ -17,9 +17,10 @@ Image drawValues(const std::string& name, int width, int height, const std::func
 /// A 16-bit image of unit vectors, stored as n/2 + 1/2.
 Image drawNormals(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& normal);
 
-/// An image of linear fp32 values, opacity 1. `told`, unless empty, is called from any thread with the fraction done.
+/// An image of linear fp32 values, opacity 1. `progress`, unless empty, is called from any thread with the fraction
+/// done.
 Image drawRadiance(const std::string& name, int width, int height, const std::function<glm::dvec3(int, int)>& radiance,
-                   const std::function<void(double)>& told = {});
+                   const std::function<void(double)>& progress = {});
 
 /// The tangent-space normals of a height field that repeats in both directions (x right, y up: against the rows).
 /// `texelMetres` is the height field's spacing, heights are in metres.

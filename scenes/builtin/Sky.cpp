@@ -284,12 +284,12 @@ double sunShare(int x, int y, const glm::dvec3& sun) {
 
 } // namespace
 
-Image makeSky(const std::function<void(double)>& told) {
+Image makeSky(const std::function<void(double)>& progress) {
     const Sky sky;
     const glm::dvec3 sunRadiance = sky.sunRadiance();
     std::vector<std::optional<Sky::Ring>> rings(kMapHeight);
     tbb::parallel_for(0, kMapHeight, [&](int y) {
-        if (told) told(0.0); // may throw to cancel
+        if (progress) progress(0.0); // may throw to cancel
         rings[std::size_t(y)].emplace(sky, directionInMap({0.5, (y + 0.5) / kMapHeight}).y);
     });
     const auto radiance = [&](int x, int y) {
@@ -298,7 +298,7 @@ Image makeSky(const std::function<void(double)>& told) {
         return rings[std::size_t(y)]->radiance(direction) +
                (isNearSun ? sunShare(x, y, sky.sun()) * sunRadiance : glm::dvec3(0.0));
     };
-    return drawRadiance("sky", kMapWidth, kMapHeight, radiance, told);
+    return drawRadiance("sky", kMapWidth, kMapHeight, radiance, progress);
 }
 
 } // namespace tessera::scenes::builtin

@@ -59,11 +59,11 @@ glm::dvec3 studioRadiance(const glm::dvec3& direction) {
 
 } // namespace
 
-Image makeStudio(const std::function<void(double)>& told) {
+Image makeStudio(const std::function<void(double)>& progress) {
     const auto radiance = [](int x, int y) {
         return studioRadiance(directionInMap({(x + 0.5) / kMapWidth, (y + 0.5) / kMapHeight}));
     };
-    return drawRadiance("studio", kMapWidth, kMapHeight, radiance, told);
+    return drawRadiance("studio", kMapWidth, kMapHeight, radiance, progress);
 }
 
 } // namespace tessera::scenes::builtin

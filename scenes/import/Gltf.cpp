@@ -74,7 +74,7 @@ void warnOfIgnoredFeatures(Context& context) {
 
 Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
     const std::uint64_t mark = ledger.usedBytes();
-    Repairs repairs(ledger.wishes().isStrict);
+    Repairs repairs(ledger.importOptions().isStrict);
     Document document = loadDocument(file, ledger, repairs);
     Scene scene;
     takeLightUnits(document, scene.notes);
@@ -146,7 +146,7 @@ Scene importGltf(const std::filesystem::path& file, LoadLedger& ledger) {
 Environment importGltfEnvironment(const std::filesystem::path& file, LoadLedger& ledger,
                                   std::vector<std::string>& warnings) {
     const std::uint64_t mark = ledger.usedBytes();
-    Repairs repairs(ledger.wishes().isStrict);
+    Repairs repairs(ledger.importOptions().isStrict);
     Document document = loadDocument(file, ledger, repairs);
     Scene scene;
     Context context{document, scene};
@@ -155,8 +155,8 @@ Environment importGltfEnvironment(const std::filesystem::path& file, LoadLedger&
         throw InputError(fmt::format("{}: its scene has no light of EXT_lights_image_based; name a picture, or a model "
                                      "that has one",
                                      document.file));
-    for (const std::vector<std::string>& told : {repairs.warnings(), scene.warnings, scene.notes})
-        warnings.insert(warnings.end(), told.begin(), told.end());
+    for (const std::vector<std::string>& messages : {repairs.warnings(), scene.warnings, scene.notes})
+        warnings.insert(warnings.end(), messages.begin(), messages.end());
     ledger.settle(mark, scene.environment->map.texels.size());
     return std::move(*scene.environment);
 }

@@ -149,18 +149,18 @@ void importLight(Context& context, int nodeIndex, const glm::dmat4& worldFromNod
 
 void takeLightUnits(Document& document, std::vector<std::string>& notes) {
     if (document.model.lights.empty()) return;
-    const std::optional<LightUnits> wish = document.ledger.wishes().lightUnits;
+    const std::optional<LightUnits> requested = document.ledger.importOptions().lightUnits;
     const std::optional<ExporterVersion> blender = blenderVersion(document.model.asset.generator);
-    if (!(wish ? wish == LightUnits::Lumen : blender.has_value())) return;
+    if (!(requested ? requested == LightUnits::Lumen : blender.has_value())) return;
     constexpr ExporterVersion kSunsToo{3, 4};
     bool areDivided = false;
     for (std::size_t i = 0; i < document.model.lights.size(); ++i) {
-        const bool isWatts = !wish && document.model.lights[i].type == "directional" && *blender < kSunsToo;
+        const bool isWatts = !requested && document.model.lights[i].type == "directional" && *blender < kSunsToo;
         if (isWatts) continue;
         areDivided = true;
         document.wattsPerUnit[i] = 1.0 / kLumensPerWatt;
     }
-    if (!wish && areDivided)
+    if (!requested && areDivided)
         notes.push_back(fmt::format("its lights are in lumens, {} for each watt, as Blender exports them, and shown in "
                                     "watts; --light-units watt takes them as they are",
                                     kLumensPerWatt));

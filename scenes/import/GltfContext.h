@@ -57,13 +57,13 @@ struct Context {
 
     /// The document's material of a primitive in the requested variant, if the variant changes it.
     std::optional<int> variantMaterial(const tiny::Primitive& primitive) const {
-        const std::optional<std::string>& wish = document.ledger.wishes().variant;
-        if (!wish) return std::nullopt;
+        const std::optional<std::string>& requested = document.ledger.importOptions().variant;
+        if (!requested) return std::nullopt;
         const auto variants = elementsOf(valueAt(document.model.extensions, "KHR_materials_variants/variants"));
         for (const tiny::Value& mapping : elementsOf(valueAt(primitive.extensions, "KHR_materials_variants/mappings")))
             for (const tiny::Value& variant : elementsOf(valueAt(&mapping, "variants")))
                 if (const auto index = std::size_t(integerOf(&variant));
-                    index < variants.size() && stringOf(valueAt(&variants[index], "name")) == *wish)
+                    index < variants.size() && stringOf(valueAt(&variants[index], "name")) == *requested)
                     return integerOf(valueAt(&mapping, "material"));
         return std::nullopt;
     }
@@ -80,7 +80,7 @@ struct Context {
     void repair(const std::string& place, std::string_view repair, fmt::format_string<Values...> flaw,
                 Values&&... values) {
         const std::string what = fmt::format(flaw, std::forward<Values>(values)...);
-        if (document.ledger.wishes().isStrict) document.fail(place, what);
+        if (document.ledger.importOptions().isStrict) document.fail(place, what);
         warn("{}: {}{}", place, what, repair);
     }
 

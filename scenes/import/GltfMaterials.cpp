@@ -114,7 +114,7 @@ std::optional<Image> readableImage(Context& context, int index, const char* inst
     } catch (const MemoryRefused&) {
         throw;
     } catch (const InputError& error) {
-        if (document.ledger.wishes().isStrict) throw;
+        if (document.ledger.importOptions().isStrict) throw;
         context.unreadableBytes += document.ledger.usedBytes() - context.buffers.heldBytes() - mark;
         if (context.unreadableBytes > kMostUnreadableBytes)
             document.fail(fmt::format("/images/{}", index),
@@ -173,8 +173,8 @@ ShownMaterial Materials::distinct(ShownMaterial shown) const {
     return shown.shading == Shading::Unlit || hasNormalMap ? shown : asStated;
 }
 
-int Materials::material(ShownMaterial asked) {
-    const ShownMaterial shown = distinct(asked);
+int Materials::material(ShownMaterial requested) {
+    const ShownMaterial shown = distinct(requested);
     if (const auto found = materials_.find(shown); found != materials_.end()) return found->second;
     Material material;
     if (shown.index >= 0) {
@@ -297,7 +297,7 @@ TextureUse Materials::use(const TextureInfo& info, TextureSlot slot, const std::
             info.texCoordSet < kTexCoordSets
                 ? fmt::format("needs TEXCOORD_{}, which a mesh lacks", info.texCoordSet)
                 : fmt::format("uses texture coordinate set {}; only 0 and 1 are supported", info.texCoordSet));
-        if (!takesStandIn(slot)) return {};
+        if (!usesStandIn(slot)) return {};
         return {standIn(), {}, (lostSets & 3u) == 1u ? 1 : 0, {}};
     }
     const tiny::Model& model = context_.document.model;
@@ -313,7 +313,7 @@ TextureUse Materials::use(const TextureInfo& info, TextureSlot slot, const std::
                             ? "has a source in KTX2 alone; 'ktx extract --transcode rgba8 IN.ktx2 OUT.png' of "
                               "KTX-Software makes it one in PNG"
                             : "has no source in a supported format; store it as PNG or JPEG");
-    if (picture == kNone && !takesStandIn(slot)) return {};
+    if (picture == kNone && !usesStandIn(slot)) return {};
     TextureUse use{picture == kNone ? standIn() : picture, {}, info.texCoordSet, info.transform};
     if (texture.sampler != kNone) use.sampler = samplerOf(elementAt(model.samplers, texture.sampler));
     return use;
@@ -340,7 +340,7 @@ int Materials::standIn() {
 // ---- Variants -------------------------------------------------------------------------------------------------------
 
 void importVariant(Context& context, Materials& materials) {
-    const std::optional<std::string>& wish = context.document.ledger.wishes().variant;
+    const std::optional<std::string>& requested = context.document.ledger.importOptions().variant;
     std::vector<std::string>& names = context.scene.variants;
     std::unordered_set<std::string_view> known;
     const tiny::Value* const variants = valueAt(context.document.model.extensions, "KHR_materials_variants/variants");
@@ -351,13 +351,13 @@ void importVariant(Context& context, Materials& materials) {
         names.push_back(name);
     }
     if (names.empty()) return;
-    constexpr std::size_t kMostTold = 20;
-    const std::span<const std::string> told = std::span(names).first(std::min(names.size(), kMostTold));
+    constexpr std::size_t kMostNamed = 20;
+    const std::span<const std::string> named = std::span(names).first(std::min(names.size(), kMostNamed));
     context.scene.notes.push_back(fmt::format("{}; its variants are {}{}",
-                                              wish && known.contains(*wish)
-                                                  ? fmt::format("shows the variant '{}'", *wish)
+                                              requested && known.contains(*requested)
+                                                  ? fmt::format("shows the variant '{}'", *requested)
                                                   : "shows its materials as they are without a variant",
-                                              fmt::join(told, ", "), told.size() < names.size() ? ", ..." : ""));
+                                              fmt::join(named, ", "), named.size() < names.size() ? ", ..." : ""));
     for (const auto& [sceneMesh, shown] : context.variantMaterials) materials.material(shown);
 }
 

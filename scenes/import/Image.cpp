@@ -211,7 +211,7 @@ DecodedPicture PictureSource::blank(int width, int height, TexelFormat texels, s
 }
 
 void PictureSource::noteRepair(const std::string& flaw, const std::string& repair) const {
-    if (ledger.wishes().isStrict) throw InputError(fmt::format("{}: {}; save it again", name, flaw));
+    if (ledger.importOptions().isStrict) throw InputError(fmt::format("{}: {}; save it again", name, flaw));
     ledger.warn(fmt::format("{}: {}; {}", name, flaw, repair));
 }
 

@@ -134,7 +134,7 @@ DecodedPicture decodePng(const PictureSource& source) {
     const std::string problem = result.problem;
     result = {};
     source.ledger.settle(mark, 0);
-    if (!source.ledger.wishes().isStrict) result = readPng(source, true);
+    if (!source.ledger.importOptions().isStrict) result = readPng(source, true);
     source.require(result.rows > 0, problem);
     source.noteRepair(fmt::format("the png picture is broken or cut short ({})", problem),
                       "drawn as far as it can be read");

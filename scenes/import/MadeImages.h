@@ -16,7 +16,7 @@ Image standInPicture(LoadLedger& ledger, const std::string& who);
 inline constexpr const char* kStandInText = "; its colours are a checkerboard, and what else it holds is left out";
 
 /// Whether textures of this slot hold colours, which a stand-in can replace.
-inline bool takesStandIn(TextureSlot slot) {
+inline bool usesStandIn(TextureSlot slot) {
     return infoOf(slot).isSrgb;
 }
 

@@ -163,8 +163,8 @@ private:
 class ObjImporter {
 public:
     ObjImporter(const std::filesystem::path& file, LoadLedger& ledger)
-        : file_(file), repairs_(ledger.wishes().isStrict), ledger_(ledger), obj_(readObj(file, ledger, repairs_)),
-          normals_(obj_), materials_(scene_, repairs_, ledger) {}
+        : file_(file), repairs_(ledger.importOptions().isStrict), ledger_(ledger),
+          obj_(readObj(file, ledger, repairs_)), normals_(obj_), materials_(scene_, repairs_, ledger) {}
 
     Scene import() {
         scene_.name = file_.stem().string();

@@ -110,7 +110,7 @@ Material MaterialConverter::converted(const MtlMaterial& mtl) {
 TextureUse MaterialConverter::textureUse(const MtlMaterial& mtl, const MtlPicture& picture, TextureSlot slot) {
     TextureUse use = pictureUse(mtl, picture);
     if (use.image != kNone) return use;
-    if (!takesStandIn(slot)) return {};
+    if (!usesStandIn(slot)) return {};
     use.image = standIn(mtl);
     return use;
 }
@@ -150,7 +150,7 @@ int MaterialConverter::image(const MtlMaterial& mtl, const MtlPicture& picture) 
     } catch (const MemoryRefused& error) {
         throw MemoryRefused(textOf(error));
     } catch (const InputError& error) {
-        if (ledger_.wishes().isStrict) throw InputError(textOf(error));
+        if (ledger_.importOptions().isStrict) throw InputError(textOf(error));
         ledger_.settle(mark, 0);
         scene_.warnings.push_back(textOf(error) + kStandInText);
         return kNone;

@@ -74,7 +74,7 @@ public:
                                  ? repairs_.first()
                                  : file_ + ": has nothing to draw ('f', 'l', 'p' or 'v' statements); export the model "
                                            "with its polygons");
-        obj_.colors = colours_.take(file_, ledger_.wishes().objColours, isUsed_, repairs_);
+        obj_.colors = colours_.take(file_, ledger_.importOptions().objColours, isUsed_, repairs_);
         placeOrigin();
         if (!unknown_.empty())
             obj_.warnings.push_back(fmt::format("{}: statements that are not supported are left out: {}", file_,

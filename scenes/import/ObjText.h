@@ -1,5 +1,5 @@
 #pragma once
-#include "scenes/ImportWishes.h"
+#include "scenes/ImportOptions.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/Repairs.h"
 

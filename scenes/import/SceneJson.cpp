@@ -88,7 +88,7 @@ private:
         const std::optional<JsonValue> base = document.find("base");
         const bool replacesLights = document.has("lights"), replacesCameras = document.has("cameras");
         document.done("a scene");
-        EnvironmentWish surroundings;
+        EnvironmentRequest surroundings;
         if (environment) surroundings = readEnvironment(*environment);
         std::vector<Light> ownLights;
         std::vector<std::string> lightWarnings;
@@ -132,32 +132,32 @@ private:
     }
 
     /// The environment keys of a document; the base's values apply to unset ones.
-    struct EnvironmentWish {
+    struct EnvironmentRequest {
         std::optional<glm::vec3> background;
         std::optional<JsonValue> map;
         std::optional<float> intensity, rotationDegrees;
     };
 
-    static EnvironmentWish readEnvironment(const JsonValue& value) {
+    static EnvironmentRequest readEnvironment(const JsonValue& value) {
         JsonObject environment = value.object();
-        EnvironmentWish wish;
-        if (const auto background = environment.find("background")) wish.background = background->color();
-        wish.map = environment.find("map");
-        if (wish.map && !wish.map->isNull()) wish.map->text();
-        if (const auto intensity = environment.find("intensity")) wish.intensity = intensity->single(0.0);
-        if (const auto rotation = environment.find("rotationDegrees")) wish.rotationDegrees = rotation->single();
+        EnvironmentRequest requested;
+        if (const auto background = environment.find("background")) requested.background = background->color();
+        requested.map = environment.find("map");
+        if (requested.map && !requested.map->isNull()) requested.map->text();
+        if (const auto intensity = environment.find("intensity")) requested.intensity = intensity->single(0.0);
+        if (const auto rotation = environment.find("rotationDegrees")) requested.rotationDegrees = rotation->single();
         environment.done("an environment");
-        return wish;
+        return requested;
     }
 
     /// Applies environment keys. A null map removes that of the base.
-    void addEnvironment(const JsonValue& value, const EnvironmentWish& wish, Scene& scene) {
-        if (wish.map) scene.environment.reset();
-        if (wish.map && !wish.map->isNull()) scene.environment = loadMap(*wish.map, scene.warnings);
-        if (!wish.intensity && !wish.rotationDegrees) return;
+    void addEnvironment(const JsonValue& value, const EnvironmentRequest& requested, Scene& scene) {
+        if (requested.map) scene.environment.reset();
+        if (requested.map && !requested.map->isNull()) scene.environment = loadMap(*requested.map, scene.warnings);
+        if (!requested.intensity && !requested.rotationDegrees) return;
         if (!scene.environment) value.fail("says how a map lies or shines, and there is none; name a 'map'");
-        if (wish.intensity) scene.environment->intensity = *wish.intensity;
-        if (wish.rotationDegrees) scene.environment->rotationDegrees = *wish.rotationDegrees;
+        if (requested.intensity) scene.environment->intensity = *requested.intensity;
+        if (requested.rotationDegrees) scene.environment->rotationDegrees = *requested.rotationDegrees;
     }
 
     Environment loadMap(const JsonValue& map, std::vector<std::string>& warnings) {
@@ -192,7 +192,7 @@ private:
         if (const auto lights = object.find("lights")) {
             options.lights = lights->integer(0, kMostLights);
             if (!file.text().starts_with(kBuiltinPrefix))
-                lights->fail("only a built-in scene makes as many lights as it is asked for; remove it");
+                lights->fail("only a built-in scene makes a requested number of lights; remove it");
         }
         if (const auto assets = object.find("assets")) {
             options.useAssets = assets->boolean();
@@ -205,17 +205,17 @@ private:
         std::string name = std::move(scene.name);
         scene = inVariant(variant, [&] { return load(file, options); });
         scene.name = std::move(name);
-        const std::optional<std::string>& asked = ledger_.wishes().variant;
-        return {scene.materials.size(), scene.images.size(), variant && asked && *asked != variant->text()};
+        const std::optional<std::string>& requested = ledger_.importOptions().variant;
+        return {scene.materials.size(), scene.images.size(), variant && requested && *requested != variant->text()};
     }
 
     /// Returns the result of `read` in the variant that a document names, unless another was requested before.
     template <typename Read>
     Scene inVariant(const std::optional<JsonValue>& variant, const Read& read) {
-        const std::optional<std::string> before = ledger_.wishes().variant;
-        if (variant && !before) ledger_.wishVariant(variant->text());
+        const std::optional<std::string> before = ledger_.importOptions().variant;
+        if (variant && !before) ledger_.requestVariant(variant->text());
         Scene scene = read();
-        ledger_.wishVariant(before);
+        ledger_.requestVariant(before);
         if (variant && std::ranges::find(scene.variants, variant->text()) == scene.variants.end())
             variant->failUnknown("variant", variant->text(),
                                  std::vector<std::string_view>(scene.variants.begin(), scene.variants.end()));
@@ -251,7 +251,7 @@ private:
         const std::string text = name.text();
         const std::string file =
             text.starts_with(kBuiltinPrefix) ? text : resolveFile(name).lexically_normal().string();
-        Part& part = parts_[{file, ledger_.wishes().variant.value_or(std::string())}];
+        Part& part = parts_[{file, ledger_.importOptions().variant.value_or(std::string())}];
         if (part.kept) {
             countIncludes(name, part.includes);
             return copyOf(*part.kept, name);
@@ -370,12 +370,12 @@ private:
                     option.fail(error.what());
                 }
             } else {
-                options.wishes[key] = readWish(option); // checked by the layers above, which define settings
+                options.requested[key] = readOption(option); // checked by the layers above, which define settings
             }
         }
     }
 
-    static Wish readWish(const JsonValue& value) {
+    static OptionValue readOption(const JsonValue& value) {
         if (value.isBoolean()) return value.boolean();
         if (value.isNumber()) return value.number();
         if (value.isText()) return value.text();

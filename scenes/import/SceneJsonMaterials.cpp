@@ -176,7 +176,7 @@ private:
     void setFactor(const JsonValue& value, MaterialParameter::Kind, Masking Material::*member) {
         std::vector<Named<Masking>> taken;
         std::ranges::copy_if(kMaskings, std::back_inserter(taken), [&](const Named<Masking>& masking) {
-            return takesMasking(material_.model, masking.second);
+            return supportsMasking(material_.model, masking.second);
         });
         material_.*member = value.oneOf<Masking>("masking", taken);
     }
@@ -330,7 +330,7 @@ void changeMaterial(JsonObject& object, Material& material, Images& images) {
     if (const auto model = object.find("model")) {
         material.model = model->oneOf<MaterialModel>("material model", kModels);
         // Overrides may change the model, and not every model has every masking-shadowing option.
-        if (!takesMasking(material.model, material.masking)) material.masking = Masking::Walter;
+        if (!supportsMasking(material.model, material.masking)) material.masking = Masking::Walter;
     }
     readModelParameters(object, material, images);
     if (const auto mode = object.find("alphaMode"))

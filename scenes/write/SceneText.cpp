@@ -72,18 +72,18 @@ Json materialsJson(const Scene& scene, const SceneOrigin& origin) {
 }
 
 /// Writes whole numbers without a fraction: "size": [640, 360].
-Json wishJson(double value) {
+Json optionJson(double value) {
     constexpr double kMostWhole = 9007199254740992.0; // 2^53
     const bool isWhole = value == std::floor(value) && std::abs(value) <= kMostWhole && !std::signbit(value);
     return isWhole ? Json(static_cast<std::uint64_t>(value)) : write::number(value);
 }
-Json wishJson(const std::vector<double>& list) {
+Json optionJson(const std::vector<double>& list) {
     Json array = Json::array();
-    for (const double value : list) array.push_back(wishJson(value));
+    for (const double value : list) array.push_back(optionJson(value));
     return array;
 }
 template <typename Value>
-Json wishJson(const Value& value) {
+Json optionJson(const Value& value) {
     return value;
 }
 
@@ -109,10 +109,10 @@ Json hookValuesJson(const Hook& hook) {
 /// `isSeen`: the environment already contains the view's rotation and intensity.
 Json optionsJson(const Scene& scene, bool isSeen) {
     SceneOptions options = scene.options;
-    if (isSeen) askForNoView(options);
+    if (isSeen) removeEnvironmentView(options);
     Json object = Json::object();
-    for (const auto& [key, wish] : options.wishes)
-        object[key] = std::visit([](const auto& value) { return wishJson(value); }, wish);
+    for (const auto& [key, option] : options.requested)
+        object[key] = std::visit([](const auto& value) { return optionJson(value); }, option);
     if (options.camera) object["camera"] = *options.camera;
     if (options.clip) object["clip"] = *options.clip;
     // A scene whose lights were all removed must stay dark.
@@ -139,8 +139,8 @@ std::string textOf(const Json& document) {
 
 } // namespace
 
-void askForNoView(SceneOptions& options) {
-    for (const std::string_view key : kEnvironmentViewKeys) options.wishes.erase(std::string(key));
+void removeEnvironmentView(SceneOptions& options) {
+    for (const std::string_view key : kEnvironmentViewKeys) options.requested.erase(std::string(key));
 }
 
 std::string sceneText(const Scene& scene, const SceneOrigin& origin, const fs::path& file,

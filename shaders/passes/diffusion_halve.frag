@@ -2,10 +2,10 @@
 #include "shared/diffusion.h"
 
 layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D light;
-layout(binding = TEXTURE_UNIT_DIFFUSION_UNSPREAD) uniform sampler2D unspread;
+layout(binding = TEXTURE_UNIT_DIFFUSION_UNDIFFUSED) uniform sampler2D undiffused;
 
 layout(location = 0) out vec4 halvedLight;
-layout(location = 1) out vec4 halvedUnspread;
+layout(location = 1) out vec4 halvedUndiffused;
 
 vec4 halvedOf(sampler2D whole)
 {
@@ -20,5 +20,5 @@ vec4 halvedOf(sampler2D whole)
 void main()
 {
     halvedLight = halvedOf(light);
-    halvedUnspread = halvedOf(unspread);
+    halvedUndiffused = halvedOf(undiffused);
 }

@@ -11,7 +11,7 @@ layout(std140, binding = UNIFORM_PASS) uniform DiffusionLightBlock
 
 layout(location = 15) in vec3 positionLS;
 layout(location = 0) out vec4 entering;
-layout(location = 1) out vec4 unspread;
+layout(location = 1) out vec4 undiffused;
 
 // Makes a surface Lambertian, without layers. enteredMaterial() of renderer/frame/MaterialFeatures.cpp does the same to
 // its material, so that code which becomes unused is left out.
@@ -45,5 +45,5 @@ void main()
 #if HAS_SHADOWS && HAS_SUBSURFACE_PASSAGE
     kept += constants.inPixels.rgb * passed;
 #endif
-    unspread = vec4(kept, 1.0);
+    undiffused = vec4(kept, 1.0);
 }

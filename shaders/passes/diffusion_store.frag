@@ -7,7 +7,7 @@ layout(std140, binding = UNIFORM_PASS) uniform DiffusionStoreBlock
 };
 
 // Light that leaves the surface: undiffused light, and the sum of diffused light.
-layout(binding = TEXTURE_UNIT_DIFFUSION_UNSPREAD) uniform sampler2D unspread;
+layout(binding = TEXTURE_UNIT_DIFFUSION_UNDIFFUSED) uniform sampler2D undiffused;
 #if SUMS
 layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D sum;
 #endif
@@ -16,7 +16,7 @@ layout(location = 0) out vec4 stored;
 
 vec4 lightAt(ivec2 texel)
 {
-    vec4 own = texelFetch(unspread, texel, 0);
+    vec4 own = texelFetch(undiffused, texel, 0);
 #if SUMS
     precise vec3 both = own.rgb + texelFetch(sum, texel, 0).rgb;
     return vec4(both, own.a);

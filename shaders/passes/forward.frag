@@ -1,6 +1,6 @@
 // Shades surfaces as they are rasterised.
 #include "lib/raster/rasterised.glsl"
-#include "lib/raster/spread_light.glsl"
+#include "lib/raster/diffused_light.glsl"
 #include "lib/raster/filmed.glsl"
 #include "lib/raster/coverage.glsl"
 #include "lib/raster/shading_place.glsl"
@@ -20,7 +20,7 @@ void main()
     Fragment fragment = rasterisedFragment();
     vec4 baseColor = materialBaseColor(fragment);
     Surface surface = surfaceFromMaterial(fragment, baseColor);
-    takeSpreadLight(fragment, surface);
+    takeDiffusedLight(fragment, surface);
     coverWithFilm(fragment, surface);
     ShadingPlace place = shadingPlace();
     if (coversNothing(baseColor)) discard;

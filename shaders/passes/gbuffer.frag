@@ -1,7 +1,7 @@
 // Stores the visible surface of each pixel.
 #define GBUFFER_WRITE
 #include "lib/raster/rasterised.glsl"
-#include "lib/raster/spread_light.glsl"
+#include "lib/raster/diffused_light.glsl"
 #include "lib/raster/filmed.glsl"
 #include "lib/gbuffer/gbuffer.glsl"
 
@@ -10,7 +10,7 @@ void main()
     Fragment fragment = rasterisedFragment();
     vec4 baseColor = materialBaseColor(fragment);
     Surface surface = surfaceFromMaterial(fragment, baseColor);
-    takeSpreadLight(fragment, surface);
+    takeDiffusedLight(fragment, surface);
     coverWithFilm(fragment, surface);
     if (materialCutOut(baseColor)) discard;
     writeGBuffer(surface);

@@ -15,7 +15,7 @@ layout(location = ATTRIBUTE_COLOR) in vec4 inColor;
 layout(location = ATTRIBUTE_FACET_NORMAL) in vec3 facetNormalOS; // of the triangle whose last corner this is
 
 // Per draw: rows of RWS-from-object, and of the cofactor matrix of LS-from-object times the sign of its determinant
-// (xyz). w of the first normal row: that sign, times 1 + spreadingNumber; of the second: the largest of the mesh's
+// (xyz). w of the first normal row: that sign, times 1 + diffusionNumber; of the second: the largest of the mesh's
 // vertex colours, 0 if it has none; of the third: 1 + the index of the mesh instance in the scene.
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0) in vec4 drawRow0;
 layout(location = ATTRIBUTE_DRAW_POSITION_ROW0 + 1) in vec4 drawRow1;
@@ -66,7 +66,7 @@ layout(location = 13) flat out vec3 objectRow2;
 layout(location = 10) out vec3 vertexLS; // for passes/triangle.geom
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-layout(location = 14) flat out int spreadingNumber;
+layout(location = 14) flat out int diffusionNumber;
 #endif
 #if IN_ATLAS
 layout(location = 15) out vec3 positionLS;
@@ -106,7 +106,7 @@ void main()
 #endif
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-    spreadingNumber = int(abs(drawNormal0.w)) - 1;
+    diffusionNumber = int(abs(drawNormal0.w)) - 1;
 #endif
 #if !DEPTH_ONLY
     normalLS = vec3(dot(drawNormal0.xyz, normalOS), dot(drawNormal1.xyz, normalOS), dot(drawNormal2.xyz, normalOS));

@@ -11,7 +11,7 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     Surface surface = surfaceFromGBuffer(pixel);
-    if (!takesLight(surface)) discard;
+    if (!isLit(surface)) discard;
     Viewpoint viewpoint = viewpointFromDepth(gl_FragCoord.xy, texelFetch(depthChannel, pixel, 0).r);
     precise vec3 given = vec3(0.0); // the blending adds
     SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);

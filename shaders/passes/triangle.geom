@@ -57,8 +57,8 @@ layout(location = 4) out vec4 vertexColor;
 layout(location = 8) flat out float largestColor;
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-layout(location = 14) flat in int vertexSpreadingNumber[];
-layout(location = 19) flat out int spreadingNumber;
+layout(location = 14) flat in int vertexDiffusionNumber[];
+layout(location = 19) flat out int diffusionNumber;
 #endif
 #if HOOKED
 layout(location = 16) in vec3 vertexHookedOS[];
@@ -113,7 +113,7 @@ void main()
         largestColor = vertexLargestColor[corner];
 #endif
 #if HAS_SUBSURFACE_DIFFUSION && !DEPTH_ONLY
-        spreadingNumber = vertexSpreadingNumber[corner];
+        diffusionNumber = vertexDiffusionNumber[corner];
 #endif
 #if HOOKED
         hookedOS = vertexHookedOS[corner];

@@ -3,10 +3,10 @@
 #include "interop.h"
 
 // Texture units of the diffusion passes, which sample nothing else.
-#define TEXTURE_UNIT_DIFFUSION_STEPS 0     // xy metres per texel along u and v, z shear, w chart, negative outside
-#define TEXTURE_UNIT_DIFFUSION_CONTINUED 1 // xy where the surface continues, in texels
-#define TEXTURE_UNIT_DIFFUSION_LIGHT 2     // light to diffuse
-#define TEXTURE_UNIT_DIFFUSION_UNSPREAD 3  // undiffused light that leaves the texels
+#define TEXTURE_UNIT_DIFFUSION_STEPS 0      // xy metres per texel along u and v, z shear, w chart, negative outside
+#define TEXTURE_UNIT_DIFFUSION_CONTINUED 1  // xy where the surface continues, in texels
+#define TEXTURE_UNIT_DIFFUSION_LIGHT 2      // light to diffuse
+#define TEXTURE_UNIT_DIFFUSION_UNDIFFUSED 3 // undiffused light that leaves the texels
 
 // Gaussians are truncated at this many standard deviations; the tails beyond hold a thousandth. Taps lie about
 // DIFFUSION_TAP_SHARE standard deviations apart if the light is already diffused to at least 1 / DIFFUSION_WIDENING of
@@ -36,7 +36,7 @@ struct DiffusionStoreConstants {
     uvec4 store; // xy corner of the cell, in texels
 };
 
-struct DiffusionSpreadConstants {
+struct DiffusionBlurConstants {
     vec4 gaussian; // x target variance, m^2 of the scene; y 0 along u, 1 along v; z source variance; both are at least
                    // the variance of texel interpolation
     vec4 weight;   // rgb weight of the result in the sum; a variance of texel interpolation, in squared texels

@@ -90,7 +90,7 @@ SHARED_BEGIN
 
 // Image units.
 #define IMAGE_UNIT_RADIANCE 0
-#define IMAGE_UNIT_SPREAD_LIGHT 1
+#define IMAGE_UNIT_DIFFUSED_LIGHT 1
 
 #ifdef __cplusplus
 static_assert(TEXTURE_SLOT_COUNT <= TEXTURE_UNIT_LIGHTS, "lights would hide a material's texture");

@@ -237,7 +237,7 @@ class KhronosModels(unittest.TestCase):
             self.assertAlmostEqual(tool.figures_of(own, [shown], False).luminance, 0.75, 6)
         self.assertEqual(tool.figures_of(own, [nothing], False).span, 0.0)
 
-    def test_faults_are_told_of_what_the_supplied_camera_frames(self):
+    def test_faults_of_the_view_of_the_supplied_camera_are_reported(self):
         def faults(luminance, span, is_cut, is_supplied=True, status="right"):
             return tool.faults_of(tool.Row("A", status, "", tool.Figures(luminance, span, is_cut, is_supplied)))
 
@@ -332,7 +332,7 @@ esac
         with open(self.folder / "out/models.csv", newline="") as file:
             return list(csv.DictReader(file))
 
-    def test_each_model_is_drawn_once_and_told_of(self):
+    def test_each_model_is_drawn_once_and_reported(self):
         self.model("Box.gltf", ["KHR_materials_volume"])
         self.model("Old.gltf")
         self.picture("lit", 0.5)
@@ -393,14 +393,14 @@ esac
         tool.write(path, b"new")
         self.assertEqual((path.read_text(), list(self.folder.iterdir())), ("new", [path]))
 
-    def test_a_program_that_is_not_there_is_told_before_the_work(self):
+    def test_a_missing_program_is_reported_before_the_work(self):
         self.model("Box.gltf")
         with self.assertRaises(SystemExit), contextlib.redirect_stderr(io.StringIO()) as failed:
             tool.main([str(self.folder / "models"), str(self.folder / "out"), "--program", str(self.folder / "none")])
         self.assertIn("none is no program; build it with ./run scenes", failed.getvalue())
         self.assertFalse((self.folder / "out").exists())
 
-    def test_names_that_are_no_text_are_told(self):
+    def test_names_that_are_no_text_are_reported(self):
         try:
             self.model("caf\udce9.gltf")
         except OSError:
@@ -429,9 +429,9 @@ esac
             ("lit", "small", small),
             ("lit", "large", cut_off),
         ]
-        for picture, framed, told in cases:
+        for picture, framed, messages in cases:
             self.show(picture, framed=framed)
-            self.assertEqual(self.run_tool(*program), (1 if told else 0, told), (picture, framed))
+            self.assertEqual(self.run_tool(*program), (1 if messages else 0, messages), (picture, framed))
         self.show("black", stops=2)
         self.assertEqual(self.run_tool(*program), (0, ""))
         self.assertEqual(self.rows()[0]["mean luminance"], "0.0400", "as the display picture is exposed")

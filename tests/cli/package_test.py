@@ -1,4 +1,4 @@
-"""The Debian packages of a finished build: what they hold, what they ask for, and that a picture can be rendered from them.
+"""The Debian packages of a finished build: what they hold, what they depend on, and that a picture can be rendered from them.
 
     package_test.py CPACK CMAKE BUILD_DIR WORK_DIR
 
@@ -60,7 +60,7 @@ class Packages(unittest.TestCase):
             self.assertEqual(filesOf(WORK / name), {"usr/" + path for path in filesOf(WORK / name / "usr")})
             self.assertEqual((WORK / name / f"usr/share/doc/{name}/copyright").read_text(), (REPOSITORY / "LICENSE").read_text())
 
-    def testTheyAskForWhatTheyAreLinkedWith(self):
+    def testTheyDependOnTheLibrariesThatTheyAreLinkedWith(self):
         version = self.fields["tessera"]["Version"]
         self.assertEqual(self.tessera("--version").splitlines()[0], f"tessera {version}")
         needed = packagesIn(self.fields["tessera"]["Depends"])
@@ -72,8 +72,8 @@ class Packages(unittest.TestCase):
         libraries = packagesIn(self.fields["tessera-dev"]["Depends"])
         self.assertTrue(self.fields["tessera-dev"]["Depends"].startswith(f"tessera (= {version}), "))
         self.assertLessEqual(set(libraries[1:]), built)
-        asked = re.findall(r"^find_dependency\((\w+)", (REPOSITORY / "cmake/tesseraConfig.cmake.in").read_text(), re.MULTILINE)
-        for name in set(asked) - {"Threads", "OpenGL", "OpenSSL"}:
+        required = re.findall(r"^find_dependency\((\w+)", (REPOSITORY / "cmake/tesseraConfig.cmake.in").read_text(), re.MULTILINE)
+        for name in set(required) - {"Threads", "OpenGL", "OpenSSL"}:
             word = name.lower().replace("_", "-")[:6]
             self.assertTrue(any(word in library for library in libraries), f"{name} of {libraries}")
         self.assertLessEqual({"libegl-dev", "libopengl-dev", "libimgui-dev", "libssl-dev", "libstb-dev", "libtinygltf-dev", "libwebp-dev"},
@@ -81,7 +81,7 @@ class Packages(unittest.TestCase):
         self.assertIn("libgl1-mesa-dri", packagesIn(self.fields["tessera"]["Recommends"]))
 
     @unittest.skipUnless(shutil.which("apt-get"), "needs apt-get")
-    def testDebianHasAllThatTheyAskFor(self):
+    def testDebianHasAllTheirDependencies(self):
         said = run("apt-get", "--simulate", "--no-install-recommends", "-o", "Debug::NoLocking=1", "install", *self.files.values())
         for name in NAMES:
             self.assertRegex(said, rf"(?m)^Inst {name} ")

@@ -3,7 +3,7 @@
     run_document.py DOCUMENT PROGRAM [SIZE]
 
 `tessera` and ./run are the already built PROGRAM; the repository's folders stand there by name, for commands that read
-them. With SIZE, WIDTHxHEIGHT, commands that ask for pictures of more pixels get that size instead. ./run alone makes the
+them. With SIZE, WIDTHxHEIGHT, commands that request pictures of more pixels get that size instead. ./run alone makes the
 demonstration in a small size. Blocks marked otherwise (```console, ```text, ...) show output and are not run.
 """
 

@@ -76,7 +76,7 @@ class Scripts(unittest.TestCase):
         self.assertEqual([call.split("--yes ")[1] for call in self.called("apt-get")], ["libfmt-dev"])
         self.assertIn("Installing Debian packages: libfmt-dev", result.stderr)
 
-    def testTheSecondRunNeverAsksAnythingAndSaysOnlyWhatTheProgramSays(self):
+    def testTheSecondRunNeedsNoAnswerAndPrintsOnlyTheOutputOfTheProgram(self):
         self.run_("run", "scenes")
         self.ninja("ninja: Entering directory\n[0/1] Re-checking globbed directories...\n"
                    "[1/1] cd apps && cmake -P cmake/write_commit.cmake\n", 0)
@@ -125,7 +125,7 @@ class Scripts(unittest.TestCase):
             self.assertTrue(self.called("ctest")[0].endswith(f" of {self.root}/build/python"), self.calls)
             self.assertIn("tessera_python", self.called("ninja")[1])
 
-    def testWithoutAptTheTestsOfThePythonModuleAreOnlyRunWhenAskedFor(self):
+    def testWithoutAptTheTestsOfThePythonModuleAreOnlyRunOnRequest(self):
         (self.machine / "bin/apt-get").unlink()
         self.script(self.machine / "bin" / "ctest", 'echo "ctest $* of $TESSERA_PYTHON_MODULE" >> "$MACHINE/log"')
         result = self.run_("test", "--all")

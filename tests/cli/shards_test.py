@@ -155,7 +155,7 @@ class Shards(unittest.TestCase):
              for i, part in enumerate(parts, 1)] + [["bench", "-o", f"{self.folder}/results/merged", "--merge", *parts]]))
         self.assertEqual(set(hosts.read_text().split()), {"one", "two"})
 
-    def testWhatFailedIsToldAndTheNextRunDoesWhatIsMissing(self):
+    def testWhatFailedIsReportedAndTheNextRunDoesWhatIsMissing(self):
         for by in SCHEDULERS:
             words = [by, "-o", by, "--program", self.standIn, "--", "render", "hall", "room", "--technique", "reference"]
             (self.folder / "fails-once").write_text("room")
@@ -178,7 +178,7 @@ class Shards(unittest.TestCase):
         self.assertEqual(result.returncode, 3, result.stderr)
         self.assertIn("missed: case9: off\n1 of 9 missed", result.stdout)
 
-    def testResultsOfSeveralTechniquesStayTogetherAndRenderersAreTold(self):
+    def testResultsOfSeveralTechniquesStayTogetherAndRenderersAreReported(self):
         def record(renderer, *cases):
             return {"schema": 1, "renderer": renderer, "effort": "full", "ok": True,
                     "cases": [{"name": name, "technique": technique, "ok": True, "missed": []} for name, technique in cases]}

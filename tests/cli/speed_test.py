@@ -21,10 +21,10 @@ class Speed(unittest.TestCase):
         self.assertEqual(speed.optionsIn(["a", "--rounds", "3", "b", "--views", "hall,head", "--remove"]),
                          (["a", "b"], 3, ["hall", "head"], True))
 
-    def testMisuseIsToldInOneLineBeforeAnythingIsBuilt(self):
+    def testMisuseIsReportedInOneLineBeforeAnythingIsBuilt(self):
         for words, why in ((["--rounds", "0", "HEAD"], "whole number from 1"), (["HEAD", "--views", "hal"], "lattice_16"),
                            ([], "name one commit"), (["a", "b", "c"], "name one commit"), (["--fast"], "unknown option '--fast'"),
-                           (["HEAD", "--rounds"], "needs a value"), (["no-such-commit"], "git knows no commit 'no-such-commit'")):
+                           (["HEAD", "--rounds"], "needs a value"), (["no-such-commit"], "git has no commit 'no-such-commit'")):
             done = subprocess.run([sys.executable, "-B", SPEED, *words], capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), words)
             self.assertIn(why, done.stderr)

@@ -28,7 +28,7 @@ VIEWS = {
     "hall": "hall technique=clustered_deferred",
     "hall_maps": "hall shadowFilter=pcf",
     "head": "head",
-    "spread_light": "diffusion_truth",
+    "diffused_light": "diffusion_truth",
     "lamps": "lamps",
     "lamps_sampled": "lamps areaLights=sampled",
     "glass": "glass",

@@ -1,8 +1,8 @@
 """check_floors.py ROOT: no file includes a floor above its own, and no folders of a floor include each other in a circle.
 
-The floors, top to bottom: python, apps, viewer, validation, engine, passes, renderer, shaders, base; scenes stands beside renderer and
-knows nothing of it. Passes know nothing of each other: the engine wires them. OpenGL stays inside renderer/gpu, and a render
-graph knows nothing of it. Tests and the command line may include everything.
+The floors, top to bottom: python, apps, viewer, validation, engine, passes, renderer, shaders, base; scenes stands beside renderer,
+independent of it. Passes are independent of each other: the engine wires them. OpenGL stays inside renderer/gpu, and a render
+graph is independent of it. Tests and the command line may include everything.
 """
 
 import collections

@@ -1,6 +1,7 @@
-"""check_words.py ROOT: comments and documents use the field's terms, not words that this project once coined for them.
+"""check_words.py ROOT: comments, documents, names and messages use the field's terms, not words that this project once
+coined for them.
 
-Identifiers, code blocks and what stands between backticks are free: words of the interface stay where it is described.
+In documents, code blocks and text between backticks are free.
 """
 
 import pathlib
@@ -20,9 +21,12 @@ TERMS = {
     r"of what|of whom": "the noun",
     r"whoever": "the caller, the user: the noun",
 }
+SPLIT = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|_")
 WORD = {term: re.compile(rf"\b(?:{words})\b", re.IGNORECASE) for words, term in TERMS.items()}
 SUFFIXES = (".h", ".cpp", ".glsl", ".vert", ".frag", ".geom", ".comp")
 QUOTED = re.compile(r"`[^`]*`|\"[^\"]*\"|\]\([^)]*\)|\b\w+::\w+(?:::\w+)*|\w+\(\)")
+OF_WHAT = re.compile(r"\bof (?:what|whom)\b", re.IGNORECASE)  # checked in prose alone
+OWN = ("tests/house/check_words.py", "tests/house/checks_test.py")
 COMMENT = re.compile(r'R"([^(]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(//[^\n]*|/\*.*?\*/)', re.DOTALL)
 
 
@@ -43,10 +47,16 @@ def proseOf(text):
             yield number, line
 
 
-def faultsOf(path, parts):
+def wordsOf(text):
+    """(line, words) of names, strings and comments of code: the words of fooBar and foo_bar are foo and bar."""
+    for number, line in enumerate(text.splitlines(), 1):
+        yield number, SPLIT.sub(" ", line)
+
+
+def faultsOf(path, parts, isFree=QUOTED):
     for number, text in parts:
         for term, word in WORD.items():
-            found = word.search(QUOTED.sub(" ", text))
+            found = word.search(isFree.sub(" ", text))
             if found:
                 yield f"{path}:{number}: '{found.group(0)}'; write {term}"
 
@@ -55,6 +65,8 @@ def main(root):
     documents = [root / "README.md", root / "CHANGELOG.md", *sorted((root / "docs").glob("*.md"))]
     faults = [fault for path in sourcesOf(root, SUFFIXES)
               for fault in faultsOf(path.relative_to(root), commentsOf(path.read_text()))]
+    faults += [fault for path in sourcesOf(root, (*SUFFIXES, ".py")) if str(path.relative_to(root)) not in OWN
+               for fault in faultsOf(path.relative_to(root), wordsOf(path.read_text()), OF_WHAT)]
     faults += [fault for path in documents for fault in faultsOf(path.relative_to(root), proseOf(path.read_text()))]
     print("\n".join(faults))
     return 1 if faults else 0

@@ -241,6 +241,11 @@ class Words(unittest.TestCase):
         faults = list(check_words.faultsOf("a.cpp", check_words.commentsOf(source)))
         self.assertEqual([fault.split(";")[0] for fault in faults], ["a.cpp:1: 'told'", "a.cpp:3: 'leeway'"])
 
+    def testCoinedWordsAreFoundInNamesAndStrings(self):
+        source = 'int heeds_size;\nlog("was asked");\nvoid isToldWhy(); // task\nauto ofWhat = mask;\n'
+        faults = list(check_words.faultsOf("a.cpp", check_words.wordsOf(source), check_words.OF_WHAT))
+        self.assertEqual([fault.split(";")[0] for fault in faults], ["a.cpp:1: 'heeds'", "a.cpp:2: 'asked'", "a.cpp:3: 'Told'"])
+
     def testBlocksOfCodeInDocumentsAreFree(self):
         text = "The user is told.\n```\nit tells\n```\n`heeds` is a name.\n"
         faults = list(check_words.faultsOf("a.md", check_words.proseOf(text)))

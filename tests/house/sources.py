@@ -7,7 +7,7 @@ FOLDERS = ("apps", "base", "engine", "passes", "python", "renderer", "scenes", "
 
 
 def sourcesOf(root, suffixes=(".h", ".cpp")):
-    """Sorted paths below the repository's code folders: those git knows or would add; all of them without git."""
+    """Sorted paths below the repository's code folders: those in git or to be added; all of them without git."""
     root = pathlib.Path(root)
     listing = subprocess.run(["git", "-C", str(root), "ls-files", "-z", "--cached", "--others", "--exclude-standard", "--",
                               *FOLDERS], capture_output=True, text=True) if (root / ".git").exists() else None

@@ -127,7 +127,7 @@ inline frame::FrameSettings stepSettings(int sideTexels) {
 }
 /// Closed-form outgoing radiance at a point of the step scene.
 inline glm::dvec3 stepAt(const glm::dvec3& placeWS) {
-    return scenes::builtin::spreadStep(placeWS.x - scenes::builtin::kTruthEdgeX);
+    return scenes::builtin::diffusedStep(placeWS.x - scenes::builtin::kTruthEdgeX);
 }
 
 class DiffusionTest : public ShadowTest {
@@ -180,7 +180,7 @@ protected:
         const Picture picture = pictureOf(renderer, settings);
         double wrong = 0.0, whole = 0.0;
         for (int x = 0; x < picture.width; ++x) {
-            const glm::dvec3 right = scenes::builtin::spreadStep((x + 0.5 - 0.5 * picture.width) / 1024.0);
+            const glm::dvec3 right = scenes::builtin::diffusedStep((x + 0.5 - 0.5 * picture.width) / 1024.0);
             for (int c = 0; c < 3; ++c) {
                 double mean = 0.0;
                 for (int y = 0; y < picture.height; ++y)
@@ -196,7 +196,7 @@ protected:
         scene.cameras = {above(scenes::builtin::kTruthDotWS, 0.25)};
         const frame::FrameSettings settings = withDiffusion(ofSize(128, 128), side);
         return errorOf(pictureOf(scene, settings, std::move(shaders)), scene.cameras[0], [](const glm::dvec3& placeWS) {
-            return scenes::builtin::spreadDot(glm::distance(placeWS, scenes::builtin::kTruthDotWS));
+            return scenes::builtin::diffusedDot(glm::distance(placeWS, scenes::builtin::kTruthDotWS));
         });
     }
 };

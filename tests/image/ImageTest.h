@@ -145,7 +145,7 @@ inline scenes::Node& addNode(scenes::Scene& scene, const scenes::Material& mater
 template <typename SceneOrRenderer>
 validation::ReferencePicture strictReference(SceneOrRenderer& of, const frame::FrameSettings& settings) {
     return validation::referencePicture(
-        of, settings, [] {}, validation::Leeway::None);
+        of, settings, [] {}, validation::Alternatives::None);
 }
 template <typename SceneOrRenderer>
 std::vector<float> strictRadiance(SceneOrRenderer& of, const frame::FrameSettings& settings) {

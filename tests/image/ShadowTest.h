@@ -19,7 +19,7 @@ struct ShadowCase {
 inline constexpr ShadowCase kShadowCases[] = {
     {"lattice", 16, kAllLightsCast, 0.0039, 0.0011, 0.00015},
     {"head", {}, kAllLightsCast, 0.0136, 0.0045, 0.0040},
-    {"hall", {}, {scenes::ShadowRequest::Kind::Asked}, 0.0028, 0.0015, 0.0036}};
+    {"hall", {}, {scenes::ShadowRequest::Kind::Scene}, 0.0028, 0.0015, 0.0036}};
 
 scenes::Scene sceneOf(const ShadowCase& tried);
 /// Settings for counting wrong pixels: 240x135, with texture values exactly as in the reference.

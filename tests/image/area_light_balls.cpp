@@ -91,7 +91,7 @@ TEST_SWEEP(AreaLightFloors, thatAreSeenFlatAreAsNearTheIntegralAsTheDocumentSays
     for (const auto& [cosView, roughness, byLight] : everyNth(std::vector(std::begin(kFloors), std::end(kFloors)), 10))
         for (std::size_t i = 0; i < kFloorLights.size(); ++i) {
             const LightType type = kFloorLights[i];
-            const FloorFigures& told = byLight[i];
+            const FloorFigures& stated = byLight[i];
             const scenes::Scene scene = floorUnder(type, roughness, cosView);
             const validation::ReferencePicture truth = integral(scene);
             const BallError closed = errorOf(shown(scene, {}), truth);
@@ -99,10 +99,10 @@ TEST_SWEEP(AreaLightFloors, thatAreSeenFlatAreAsNearTheIntegralAsTheDocumentSays
             fmt::print("{:9} cosine {:.1f} roughness {:.2f} bias {:+.1e} relMSE {:.1e}; sampled {:+.1e} {:.1e}\n",
                        scenes::infoOf(type).name, cosView, roughness, closed.bias, closed.relMse, sampled.bias,
                        sampled.relMse);
-            EXPECT_NEAR(closed.bias, told.bias, 1e-3 + 0.1 * std::abs(told.bias));
-            EXPECT_LE(closed.relMse, 1.5 * told.relMse);
+            EXPECT_NEAR(closed.bias, stated.bias, 1e-3 + 0.1 * std::abs(stated.bias));
+            EXPECT_LE(closed.relMse, 1.5 * stated.relMse);
             EXPECT_LE(std::abs(sampled.bias), 0.013) << "the noise of 800 pixels";
-            EXPECT_LE(sampled.relMse, 1.5 * told.sampledRelMse);
+            EXPECT_LE(sampled.relMse, 1.5 * stated.sampledRelMse);
         }
 }
 

@@ -77,7 +77,7 @@ protected:
         frame::FrameSettings settings;
         settings.sizePixels = {1, 1};
         return double(validation::referencePicture(
-                          scene, settings, [] {}, validation::Leeway::None)
+                          scene, settings, [] {}, validation::Alternatives::None)
                           .picture.rgba[0]);
     }
     static void expectWithinThree(const SampledMean& shown, double wanted, double rounding = 2e-5) {
@@ -275,7 +275,7 @@ void AreaSamples::expectTheIntegralOnBalls() {
             scene.lights[0].isSeen = false;
             const frame::FrameSettings settings = sampledSettings(24, 64);
             const validation::ReferencePicture truth = validation::referencePicture(
-                scene, settings, [] {}, validation::Leeway::None);
+                scene, settings, [] {}, validation::Alternatives::None);
             engine::Renderer renderer(context(), scene);
             const std::vector<float> radiance = renderer.render(Technique::Deferred, settings).radiance;
             std::vector<double> errors;

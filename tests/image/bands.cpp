@@ -22,15 +22,15 @@ TEST_SWEEP(Bands, aPictureDrawnInBandsIsExactlyTheSameWithEveryTechnique) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         SCOPED_TRACE(info.name);
         const engine::RenderedFrame whole = renderer.render(info.technique, small());
-        int asked = 0;
-        const gpu::BandedDrawing banded([&asked] {
-            ++asked;
+        int calls = 0;
+        const gpu::BandedDrawing banded([&calls] {
+            ++calls;
             return false;
         });
         const engine::RenderedFrame pieces = renderer.render(info.technique, small());
         EXPECT_EQ(pieces.radiance, whole.radiance);
         EXPECT_EQ(pieces.display, whole.display);
-        EXPECT_GT(asked, 4); // after every pass, and between bands
+        EXPECT_GT(calls, 4); // after every pass, and between bands
     }
 }
 
@@ -41,16 +41,16 @@ TEST_F(Bands, aPictureDrawnInTheSmallestPiecesIsExactlyTheSame) {
     for (const engine::Technique technique : {engine::Technique::Forward, engine::Technique::TiledDeferred}) {
         SCOPED_TRACE(infoOf(technique).name);
         const engine::RenderedFrame whole = renderer.render(technique, settings);
-        int asked = 0;
-        const auto ask = [&asked] {
-            ++asked;
+        int calls = 0;
+        const auto givesUp = [&calls] {
+            ++calls;
             return false;
         };
-        const gpu::BandedDrawing banded(ask, {.beginsSlow = true, .longestMs = 0.0});
+        const gpu::BandedDrawing banded(givesUp, {.beginsSlow = true, .longestMs = 0.0});
         const engine::RenderedFrame pieces = renderer.render(technique, settings);
         EXPECT_EQ(pieces.radiance, whole.radiance);
         EXPECT_EQ(pieces.display, whole.display);
-        EXPECT_GT(asked, 20) << "the pieces are not small";
+        EXPECT_GT(calls, 20) << "the pieces are not small";
     }
 }
 
@@ -60,21 +60,21 @@ TEST_F(Bands, aFrameCanBeAbandonedAtEveryBand) {
     const engine::RenderedFrame before = renderer.render(engine::Technique::TiledDeferred, small());
     bool ended = false;
     for (int last = 0; !ended; ++last) {
-        ASSERT_LT(last, 1000) << "the frame asks for ever";
-        int asked = 0;
-        const gpu::BandedDrawing banded([&] { return asked++ == last; });
+        ASSERT_LT(last, 1000) << "the frame never ends";
+        int calls = 0;
+        const gpu::BandedDrawing banded([&] { return calls++ == last; });
         try {
             renderer.draw(engine::Technique::TiledDeferred, small());
             ended = true;
         } catch (const graph::Interrupted&) {
-            EXPECT_EQ(asked, last + 1);
+            EXPECT_EQ(calls, last + 1);
         }
     }
     // Abandoned frames leave nothing behind.
     EXPECT_EQ(renderer.render(engine::Technique::TiledDeferred, small()).radiance, before.radiance);
 }
 
-TEST_SWEEP(Bands, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
+TEST_SWEEP(Bands, itReportsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
     const scenes::Scene scene = isWholeSweep() ? everythingScene() : metalScene();
     engine::Renderer renderer(context(), scene);
     const gpu::Texture texture("other", graph::TextureDesc{graph::Format::Rgba8Unorm, 16, 16, 1});
@@ -102,7 +102,7 @@ TEST_SWEEP(Bands, itTellsHowFarItIsAndOtherThingsMayBeDrawnInBetween) {
         EXPECT_EQ(pieces.radiance, whole.radiance);
         EXPECT_EQ(pieces.display, whole.display);
         EXPECT_GE(passes, renderer.backend().passTimings().size());
-        EXPECT_GT(shares, 0u) << "no draw told how far it was";
+        EXPECT_GT(shares, 0u) << "no draw reported its progress";
     }
 }
 
@@ -110,10 +110,10 @@ TEST_F(Bands, manyTrianglesAreDrawnInPartsThatLeaveOutNone) {
     const scenes::Scene scene = scenes::loadScene("lattice"); // the parts end within its spheres
     engine::Renderer renderer(context(), scene);
     const engine::RenderedFrame whole = renderer.render(engine::Technique::Deferred, small());
-    std::vector<int> asked(renderer.backend().passTimings().size() + 1); // calls within each pass
-    const gpu::BandedDrawing banded([&asked] {
+    std::vector<int> calls(renderer.backend().passTimings().size() + 1); // calls within each pass
+    const gpu::BandedDrawing banded([&calls] {
         const gpu::BandProgress progress = gpu::bandProgress();
-        if (progress.share > 0.0) ++asked.at(progress.passes);
+        if (progress.share > 0.0) ++calls.at(progress.passes);
         return false;
     });
     const engine::RenderedFrame pieces = renderer.render(engine::Technique::Deferred, small());
@@ -122,21 +122,21 @@ TEST_F(Bands, manyTrianglesAreDrawnInPartsThatLeaveOutNone) {
     const auto gbuffer = std::ranges::find(passes, "gbuffer", &gpu::PassTiming::name);
     ASSERT_NE(gbuffer, passes.end());
     // Bands alone would be four: after the first part there are more, each of at most twice the triangles.
-    EXPECT_GE(asked[std::size_t(gbuffer - passes.begin())], 5);
+    EXPECT_GE(calls[std::size_t(gbuffer - passes.begin())], 5);
 }
 
 TEST_F(Bands, withoutBandedDrawingTheCallbackIsNotCalled) {
     const scenes::Scene scene = scenes::loadScene("lattice");
     engine::Renderer renderer(context(), scene);
-    int asked = 0;
+    int calls = 0;
     {
-        const gpu::BandedDrawing banded([&asked] {
-            ++asked;
+        const gpu::BandedDrawing banded([&calls] {
+            ++calls;
             return false;
         });
     }
     renderer.draw(engine::Technique::Deferred, small());
-    EXPECT_EQ(asked, 0);
+    EXPECT_EQ(calls, 0);
 }
 
 } // namespace

@@ -53,7 +53,7 @@ TEST_F(Diffusion, leavingOutWhatTheSceneDoesNotNeedChangesNoBit) {
     expectPruningIsUnseen(renderer, settings);
 }
 
-TEST_F(DiffusionSlow, whatSpreadingCosts) {
+TEST_F(DiffusionSlow, whatDiffusionCosts) {
     scenes::Scene scene = scenes::loadScene("head_skin");
     engine::Renderer renderer(context(), scene);
     renderer.backend().setProfiling(true);
@@ -64,22 +64,22 @@ TEST_F(DiffusionSlow, whatSpreadingCosts) {
         if (frame == 1) scene.lights[0].intensity *= 1.1f;
         if (frame == 2) settings.camera = 1;
         renderer.render(Technique::Deferred, settings);
-        double spreading = 0.0, all = 0.0;
+        double diffusing = 0.0, all = 0.0;
         for (const gpu::PassTiming& timing : renderer.backend().passTimings()) {
             const double ms = timing.gpuMs.value_or(timing.cpuMs);
             if (timing.name.starts_with("diffusion")) {
                 fmt::print("{}: {:.1f} ms\n", timing.name, ms);
-                spreading += ms;
+                diffusing += ms;
             }
             all += ms;
         }
-        fmt::print("frame {}: spreading {:.1f} of {:.1f} ms\n", frame, spreading, all);
-        if (frame == 1) lit = spreading;
+        fmt::print("frame {}: diffusion {:.1f} of {:.1f} ms\n", frame, diffusing, all);
+        if (frame == 1) lit = diffusing;
         if (frame == 2) {
-            EXPECT_LE(spreading, 0.1 * lit);
+            EXPECT_LE(diffusing, 0.1 * lit);
         }
         if (frame == 3) {
-            EXPECT_EQ(spreading, 0.0);
+            EXPECT_EQ(diffusing, 0.0);
         }
     }
 }

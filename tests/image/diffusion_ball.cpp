@@ -42,9 +42,9 @@ TEST_F(DiffusionTruth, lightThatIsTheSameEverywhereStaysSoOverSeams) {
 /// Outgoing radiance of a ball of skin at true scale, lit by a sun of intensity 1, at a cosine to the sun: the clamped
 /// cosine as a series of Legendre polynomials (Ramamoorthi and Hanrahan 2001, equation 19), each damped as heat on a
 /// sphere is. 640 of them resolve the widths of skin on 30 mm to 1e-5.
-class SpreadOverBall {
+class DiffusionOverBall {
 public:
-    explicit SpreadOverBall(double radiusMetres) : radiusMetres_(radiusMetres) {
+    explicit DiffusionOverBall(double radiusMetres) : radiusMetres_(radiusMetres) {
         // Odd terms vanish except the first.
         std::array<double, kPolynomials> share{0.25, 0.5};
         double middle = 1.0; // l! / (2^l (l/2)!^2)
@@ -92,12 +92,12 @@ TEST_F(DiffusionTruth, seamsAreNoWorseThanWhatLiesBetweenThem) {
     const reference::Settings wanted = [&] {
         reference::Settings result = validation::referenceSettings(scene, settings);
         result.diffusionPoints = 1024;
-        result.leeway = false;
+        result.findsAlternatives = false;
         return result;
     }();
     const reference::Rendered truth = reference::render(scene, wanted);
     const Picture picture = pictureOf(scene, settings);
-    const SpreadOverBall closedForm(0.03);
+    const DiffusionOverBall closedForm(0.03);
     double at[2] = {}, count[2] = {}, ofTruth = 0.0;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) {
@@ -173,13 +173,13 @@ HeadError headError(const Picture& picture, const reference::Rendered& truth, st
     return error;
 }
 
-TEST_F(DiffusionTruthSlow, spreadSkinIsNearerTheReferenceThanTheOtherMethods) {
+TEST_F(DiffusionTruthSlow, diffusedSkinIsNearerTheReferenceThanTheOtherMethods) {
     scenes::LoadOptions options;
     options.useAssets = false; // the limits are those of the bust
     const scenes::Scene scene = scenes::loadScene("head_skin", options);
     frame::FrameSettings settings = exactOfSize(320, 180);
     reference::Settings wanted = validation::referenceSettings(scene, settings);
-    wanted.leeway = false;
+    wanted.findsAlternatives = false;
     wanted.diffusionPoints = 1024;
     const reference::Rendered half = reference::render(scene, wanted);
     wanted.diffusionPoints = 2048;
@@ -190,10 +190,10 @@ TEST_F(DiffusionTruthSlow, spreadSkinIsNearerTheReferenceThanTheOtherMethods) {
     for (const glm::dvec3& radiance : half.radiance)
         before.rgba.insert(before.rgba.end(), {float(radiance.x), float(radiance.y), float(radiance.z), 1.0f});
     double whole = 0.0, apart = 0.0, count = 0.0;
-    for (const reference::Diffusion::Answer& spread : truth.spread) {
-        if (spread.whole == glm::dvec3(0.0)) continue;
-        whole += spread.whole.x;
-        apart += spread.apart;
+    for (const reference::Diffusion::Answer& diffused : truth.diffused) {
+        if (diffused.whole == glm::dvec3(0.0)) continue;
+        whole += diffused.whole.x;
+        apart += diffused.apart;
         count += 1.0;
     }
     const HeadError doubling = headError(before, truth, 1);
@@ -203,12 +203,12 @@ TEST_F(DiffusionTruthSlow, spreadSkinIsNearerTheReferenceThanTheOtherMethods) {
     std::map<std::string, double> relMse;
     for (const scenes::SubsurfaceMethodInfo& method : scenes::subsurfaceMethods()) {
         settings.subsurface = method.method;
-        renderer.keepSpreadLight(false);
+        renderer.keepDiffusedLight(false);
         pictureOf(renderer, settings); // compiles
         const gpu::CpuTimer clock;
         const Picture picture = pictureOf(renderer, settings);
         const double ms = clock.elapsedMs();
-        renderer.keepSpreadLight(true);
+        renderer.keepDiffusedLight(true);
         const HeadError error = headError(picture, truth, 1);
         relMse[std::string(method.name)] = error.relMse;
         fmt::print("{}: relMse {:.2e}, p99 {:.2e}, bias {:+.2e} of {} pixels, {:.0f} ms\n", method.name, error.relMse,

@@ -13,7 +13,7 @@ using namespace test;
 class KeptDiffusion : public DiffusionTest {};
 
 /// Names of the diffusion passes of the latest frame.
-std::vector<std::string> passesThatSpread(engine::Renderer& renderer) {
+std::vector<std::string> passesThatDiffuse(engine::Renderer& renderer) {
     std::vector<std::string> names;
     for (const gpu::PassTiming& timing : renderer.backend().passTimings())
         if (timing.name.starts_with("diffusion")) names.push_back(timing.name);
@@ -22,7 +22,7 @@ std::vector<std::string> passesThatSpread(engine::Renderer& renderer) {
 
 /// Changes the camera and per-pixel settings, then the lighting. With shadow maps, outside of a whole sweep, skips
 /// per-pixel settings: their passes are those of traced shadows.
-TEST_SWEEP(KeptDiffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
+TEST_SWEEP(KeptDiffusion, diffusedLightIsKeptWhileWhatEntersIsTheSame) {
     for (const frame::ShadowFilter filter : {frame::ShadowFilter::Traced, frame::ShadowFilter::Hard}) {
         scenes::Scene ball = sphereScene(0.03, 12);
         for (scenes::Light& light : ball.lights) light.castsShadow = true;
@@ -31,13 +31,13 @@ TEST_SWEEP(KeptDiffusion, spreadLightIsKeptWhileWhatEntersIsTheSame) {
         Technique technique = Technique::Deferred;
         engine::Renderer renderer(context(), ball);
         renderer.render(technique, settings);
-        EXPECT_FALSE(passesThatSpread(renderer).empty());
+        EXPECT_FALSE(passesThatDiffuse(renderer).empty());
         int step = 0;
         const auto moved = [&](auto change, bool keeps) {
             change();
             ++step;
             const std::vector<float> seen = renderer.render(technique, settings).radiance;
-            EXPECT_EQ(passesThatSpread(renderer).empty(), keeps) << infoOf(filter).name << ", " << step;
+            EXPECT_EQ(passesThatDiffuse(renderer).empty(), keeps) << infoOf(filter).name << ", " << step;
             const std::vector<float> fresh = drawn(ball, settings, technique);
             double most = 0.0;
             for (std::size_t i = 0; i < seen.size(); ++i)
@@ -101,16 +101,16 @@ TEST_F(KeptDiffusion, lightThatEntersIsTheSameWhateverLayersHighlightAndEmission
         settings.prune = prune;
         engine::Renderer renderer(context(), ball);
         renderer.render(Technique::Deferred, settings);
-        EXPECT_FALSE(passesThatSpread(renderer).empty());
+        EXPECT_FALSE(passesThatDiffuse(renderer).empty());
         layOver(0.4f);
         renderer.materialsChanged();
         const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-        EXPECT_TRUE(passesThatSpread(renderer).empty()) << "pruned: " << prune;
+        EXPECT_TRUE(passesThatDiffuse(renderer).empty()) << "pruned: " << prune;
         EXPECT_EQ(drawn(ball, settings), seen) << "pruned: " << prune;
     }
 }
 
-TEST_F(KeptDiffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnotherWay) {
+TEST_F(KeptDiffusion, lightOfAnEnvironmentIsDiffusedAnewWhereItTurnsOrIsFoundAnotherWay) {
     scenes::Scene ball = sphereScene(0.03, 12);
     // A different colour from every direction.
     const auto surround = [&](double brightness) {
@@ -121,11 +121,11 @@ TEST_F(KeptDiffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnoth
     settings.environment.samples = 4;
     engine::Renderer renderer(context(), ball);
     renderer.render(Technique::Deferred, settings);
-    EXPECT_FALSE(passesThatSpread(renderer).empty());
+    EXPECT_FALSE(passesThatDiffuse(renderer).empty());
     const auto moved = [&](const char* what, const auto& change, bool keeps) {
         change();
         const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
-        EXPECT_EQ(passesThatSpread(renderer).empty(), keeps) << what;
+        EXPECT_EQ(passesThatDiffuse(renderer).empty(), keeps) << what;
         EXPECT_EQ(drawn(ball, settings), seen) << what;
     };
     moved(
@@ -158,7 +158,7 @@ TEST_F(KeptDiffusion, lightOfAnEnvironmentIsSpreadAnewWhereItTurnsOrIsFoundAnoth
         "another map", [] {}, false);
 }
 
-TEST_F(KeptDiffusion, lightOfAnAreaLightIsSpreadAnewWhereItIsFoundAnotherWay) {
+TEST_F(KeptDiffusion, lightOfAnAreaLightIsDiffusedAnewWhereItIsFoundAnotherWay) {
     scenes::Scene ball = sphereScene(0.03, 12);
     scenes::Light& panel = ball.lights.emplace_back();
     panel.type = scenes::LightType::Rectangle;
@@ -167,17 +167,17 @@ TEST_F(KeptDiffusion, lightOfAnAreaLightIsSpreadAnewWhereItIsFoundAnotherWay) {
     frame::FrameSettings settings = withDiffusion(ofSize(80, 45), 64);
     settings.area = {frame::AreaLights::Sampled, 4};
     engine::Renderer renderer(context(), ball);
-    const auto spreadsWith = [&](const frame::AreaSettings& area) {
+    const auto diffusesWith = [&](const frame::AreaSettings& area) {
         settings.area = area;
         const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;
         EXPECT_EQ(drawn(ball, settings), seen);
-        return !passesThatSpread(renderer).empty();
+        return !passesThatDiffuse(renderer).empty();
     };
-    EXPECT_TRUE(spreadsWith({frame::AreaLights::Sampled, 4}));
-    EXPECT_FALSE(spreadsWith({frame::AreaLights::Sampled, 4}));
-    EXPECT_TRUE(spreadsWith({frame::AreaLights::Sampled, 16}));
-    EXPECT_TRUE(spreadsWith({frame::AreaLights::Ltc, 16}));
-    EXPECT_FALSE(spreadsWith({frame::AreaLights::Ltc, 4})) << "which takes no samples";
+    EXPECT_TRUE(diffusesWith({frame::AreaLights::Sampled, 4}));
+    EXPECT_FALSE(diffusesWith({frame::AreaLights::Sampled, 4}));
+    EXPECT_TRUE(diffusesWith({frame::AreaLights::Sampled, 16}));
+    EXPECT_TRUE(diffusesWith({frame::AreaLights::Ltc, 16}));
+    EXPECT_FALSE(diffusesWith({frame::AreaLights::Ltc, 4})) << "which takes no samples";
 }
 
 /// Diffusion at half resolution and with one Gaussian: all four combinations, or both together in every second step.
@@ -229,12 +229,12 @@ TEST_SWEEP(KeptDiffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
         const auto fresh = [&] { return engine::Renderer(context(), ball).render(Technique::Deferred, settings); };
         engine::Renderer renderer(context(), ball);
         const auto addAll = [&](bool isOfAll) {
-            renderer.limitSpreadLight(engine::SpreadLimit{.tiles = 4, .isOfAll = isOfAll});
-            engine::SpreadProgress before;
+            renderer.limitDiffusion(engine::DiffusionLimit{.tiles = 4, .isOfAll = isOfAll});
+            engine::DiffusionProgress before;
             int slices = 0;
             do {
                 renderer.draw(Technique::Deferred, settings);
-                const engine::SpreadProgress progress = renderer.spreadProgress();
+                const engine::DiffusionProgress progress = renderer.diffusionProgress();
                 EXPECT_EQ(progress.objects, 1u);
                 EXPECT_EQ(progress.isOfAll, isOfAll);
                 EXPECT_GE(progress.doneTiles, before.doneTiles);
@@ -245,46 +245,46 @@ TEST_SWEEP(KeptDiffusion, lightThatIsAddedInSlicesEndsAsTheSameBits) {
             EXPECT_GT(slices, isOfAll ? 0 : 2) << "half " << half;
         };
         const auto drawKnown = [&] {
-            renderer.limitSpreadLight(engine::SpreadLimit{});
+            renderer.limitDiffusion(engine::DiffusionLimit{});
             return renderer.render(Technique::Deferred, settings).radiance;
         };
         addAll(false);
         EXPECT_EQ(drawKnown(), fresh().radiance);
-        EXPECT_TRUE(passesThatSpread(renderer).empty());
+        EXPECT_TRUE(passesThatDiffuse(renderer).empty());
 
         // Another camera reveals tiles that are not lit yet.
         lookFrom(2.5);
         const std::vector<float> known = drawKnown(), whole = fresh().radiance;
-        EXPECT_FALSE(renderer.spreadProgress().isDone());
+        EXPECT_FALSE(renderer.diffusionProgress().isDone());
         EXPECT_NE(known, whole);
-        EXPECT_TRUE(passesThatSpread(renderer).empty()) << "what is not known was told in the first slice";
+        EXPECT_TRUE(passesThatDiffuse(renderer).empty()) << "the first slice has reported the unknown texels";
         addAll(true);
         EXPECT_EQ(drawKnown(), whole);
         lookFrom(-1.8);
         EXPECT_EQ(drawKnown(), fresh().radiance) << "all is known";
-        EXPECT_TRUE(renderer.spreadProgress().isDone());
+        EXPECT_TRUE(renderer.diffusionProgress().isDone());
 
-        renderer.limitSpreadLight({});
+        renderer.limitDiffusion({});
         lookFrom(0.0);
         EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, fresh().radiance);
     }
 }
 
-TEST_F(KeptDiffusion, aFrameTellsOfHowManyObjectsTheLightHasSpread) {
+TEST_F(KeptDiffusion, aFrameReportsOfHowManyObjectsTheLightIsDiffused) {
     scenes::Scene balls = sphereScene(0.03, 12);
     scenes::Node other = balls.nodes[0];
     other.parentFromNode[3] += glm::dvec4(0.01, 0.0, 0.0, 0.0);
     balls.nodes.push_back(other);
     frame::FrameSettings settings = withDiffusion(ofSize(80, 60), 64);
     engine::Renderer renderer(context(), balls);
-    using Told = std::vector<std::pair<std::size_t, std::size_t>>;
-    Told told;
-    renderer.tellSpread([&](std::size_t done, std::size_t objects) { told.emplace_back(done, objects); });
+    using Reports = std::vector<std::pair<std::size_t, std::size_t>>;
+    Reports reports;
+    renderer.reportDiffusion([&](std::size_t done, std::size_t objects) { reports.emplace_back(done, objects); });
     const std::vector<float> first = renderer.render(Technique::Deferred, settings).radiance;
-    EXPECT_EQ(told, (Told{{0, 2}, {1, 2}, {2, 2}}));
-    told.clear();
+    EXPECT_EQ(reports, (Reports{{0, 2}, {1, 2}, {2, 2}}));
+    reports.clear();
     EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, first);
-    EXPECT_TRUE(told.empty()) << "nothing was spread anew";
+    EXPECT_TRUE(reports.empty()) << "nothing was diffused anew";
     EXPECT_EQ(drawn(balls, settings), first);
 }
 
@@ -292,15 +292,15 @@ TEST_F(KeptDiffusion, whereNoLightIsKnownItLeavesWhereItEntersAndNothingOldShows
     scenes::Scene ball = sphereScene(0.03, 24);
     frame::FrameSettings settings = withDiffusion(ofSize(120, 90), 128);
     engine::Renderer renderer(context(), ball);
-    const std::vector<float> spread = renderer.render(Technique::Deferred, settings).radiance;
+    const std::vector<float> diffused = renderer.render(Technique::Deferred, settings).radiance;
     const float intensity = ball.lights[0].intensity;
     ball.lights[0].intensity = 3.0f * intensity;
-    renderer.limitSpreadLight(engine::SpreadLimit{});
+    renderer.limitDiffusion(engine::DiffusionLimit{});
     const std::vector<float> limited = renderer.render(Technique::Deferred, settings).radiance;
     engine::Renderer fresh(context(), ball);
-    fresh.limitSpreadLight(engine::SpreadLimit{});
+    fresh.limitDiffusion(engine::DiffusionLimit{});
     EXPECT_EQ(limited, fresh.render(Technique::Deferred, settings).radiance);
-    EXPECT_EQ(fresh.spreadProgress().doneTiles, 0u);
+    EXPECT_EQ(fresh.diffusionProgress().doneTiles, 0u);
     settings.subsurface = SubsurfaceMethod::None;
     const std::vector<float> none = fresh.render(Technique::Deferred, settings).radiance;
     ASSERT_EQ(limited.size(), none.size());
@@ -308,8 +308,8 @@ TEST_F(KeptDiffusion, whereNoLightIsKnownItLeavesWhereItEntersAndNothingOldShows
     // And back: tiles marked as unknown do not count as lit.
     ball.lights[0].intensity = intensity;
     settings.subsurface.reset();
-    renderer.limitSpreadLight({});
-    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, spread);
+    renderer.limitDiffusion({});
+    EXPECT_EQ(renderer.render(Technique::Deferred, settings).radiance, diffused);
 }
 
 } // namespace

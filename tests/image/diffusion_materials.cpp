@@ -18,7 +18,7 @@ frame::FrameSettings squareSettings(int side) {
 /// A surface of two colours under uniform light. Entering light is multiplied by one power of the albedo and diffused;
 /// leaving light is multiplied by the other power. With the powers swapped, the red channel beside the edge is half as
 /// bright again.
-TEST_F(DiffusionTruth, albedoCountsBeforeAndAfterSpreadingByItsShares) {
+TEST_F(DiffusionTruth, albedoCountsBeforeAndAfterDiffusionByItsShares) {
     const glm::dvec3 dark(0.2, 0.3, 0.5), bright(0.9, 0.8, 0.7);
     scenes::Scene scene = stepScene();
     scenes::Mesh& mesh = scene.meshes[0];
@@ -40,7 +40,7 @@ TEST_F(DiffusionTruth, albedoCountsBeforeAndAfterSpreadingByItsShares) {
             const glm::dvec3 entersDark = glm::pow(dark, glm::dvec3(before));
             const glm::dvec3 entersBright = glm::pow(bright, glm::dvec3(before));
             return glm::pow(beyond > 0.0 ? bright : dark, glm::dvec3(1.0 - before)) *
-                   (entersDark + (entersBright - entersDark) * builtin::spreadStep(beyond));
+                   (entersDark + (entersBright - entersDark) * builtin::diffusedStep(beyond));
         };
         const double error = errorOf(pictureOf(renderer, squareSettings(512)), scene.cameras[0], truth).l2;
         fmt::print("{} of the albedo before: {:.2e}\n", before, error);
@@ -50,7 +50,7 @@ TEST_F(DiffusionTruth, albedoCountsBeforeAndAfterSpreadingByItsShares) {
 
 /// At 128 texels, pixels reflect 70 % of the narrowest Gaussian undiffused; at 256, all of it is diffused. At an
 /// intensity of pi, a BRDF of 1 / pi without a dielectric lobe equals lambert.
-TEST_F(DiffusionTruth, metallicRoughnessSpreadsAStepAsTheClosedFormSays) {
+TEST_F(DiffusionTruth, metallicRoughnessDiffusesAStepAsTheClosedFormSays) {
     const auto asMetallicRoughness = [](scenes::Scene& scene) {
         for (scenes::Material& material : scene.materials) {
             material.model = scenes::MaterialModel::MetallicRoughness;
@@ -93,7 +93,7 @@ TEST_F(DiffusionTruth, metalsReflectDiffuselyWhatTheFresnelFactorLeaves) {
 /// Diffused light leaves by the Fresnel factor of the viewing angle, whatever its entry angle: at this grazing angle a
 /// third of the radiance straight up. For metallic_roughness with F0 and F90 of the metallic part, as above, and a sun
 /// straight above, whose light enters by F0.
-TEST_F(DiffusionTruth, lightThatHasSpreadLeavesByTheFresnelFactorOfTheViewersAngle) {
+TEST_F(DiffusionTruth, diffusedLightLeavesByTheFresnelFactorOfTheViewersAngle) {
     constexpr double kColor = 0.5, kMetallic = 0.4, kCosine = 0.15;
     scenes::Scene scene = stepScene();
     const double scale = double(scene.materials[0].subsurface.scaleMetres);
@@ -119,7 +119,7 @@ TEST_F(DiffusionTruth, lightThatHasSpreadLeavesByTheFresnelFactorOfTheViewersAng
 
 /// Under uniform light, viewed along the normal, diffusion changes nothing: below a coat, for an area light as wide as
 /// it is far, and for an environment.
-TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {
+TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutDiffusion) {
     struct Case {
         const char* name;
         std::function<void(scenes::Scene&)> change;
@@ -160,14 +160,14 @@ TEST_F(DiffusionTruth, evenLightOfEveryKindLeavesAsWithoutSpreading) {
         frame::FrameSettings settings = squareSettings(128);
         settings.sizePixels = {64, 8};
         settings.specular = false;
-        const Picture spread = pictureOf(renderer, settings);
+        const Picture diffused = pictureOf(renderer, settings);
         settings.subsurface = SubsurfaceMethod::None;
         const Picture still = pictureOf(renderer, settings);
         for (std::size_t i = 0; i < still.pixelCount(); ++i)
             for (int c = 0; c < 3; ++c) {
                 const double wanted = double(still.pixel(i)[c]);
                 ASSERT_GT(wanted, 0.0) << one.name;
-                ASSERT_NEAR(double(spread.pixel(i)[c]), wanted, one.most * wanted) << one.name << ", pixel " << i;
+                ASSERT_NEAR(double(diffused.pixel(i)[c]), wanted, one.most * wanted) << one.name << ", pixel " << i;
             }
     }
 }
@@ -194,7 +194,7 @@ TEST_F(DiffusionTruth, layersAreNoPartOfTheLightThatEnters) {
 
 /// A slab of 10 mm in front of a sun: transmitted light is uniform for any diffusion width. For a Gaussian narrower
 /// than texels it stays in the texels, since pixels reflect light from the front only.
-TEST_F(DiffusionTruth, lightFromBehindSpreadsOverTheSideWhereItLeaves) {
+TEST_F(DiffusionTruth, lightFromBehindDiffusesOverTheSideWhereItLeaves) {
     constexpr double kThickness = 0.01, kHalf = 0.05;
     scenes::Scene scene = stepScene();
     scenes::Mesh slab;

@@ -38,13 +38,13 @@ void expectConvergence(std::span<const PlaneBars> allBars, const std::function<T
     }
 }
 
-TEST_F(DiffusionTruth, aStepAndADotSpreadAsTheClosedFormsSay) {
+TEST_F(DiffusionTruth, aStepAndADotDiffuseAsTheClosedFormsSay) {
     expectConvergence(
         std::span(kPlaneBars).first(2), [&](int side) { return stepError(side); },
         [&](int side) { return dotError(side); });
 }
 
-TEST_F(DiffusionTruthSlow, aStepAndADotSpreadAsTheClosedFormsSay) {
+TEST_F(DiffusionTruthSlow, aStepAndADotDiffuseAsTheClosedFormsSay) {
     expectConvergence(
         std::span(kPlaneBars).subspan(1), [&](int side) { return stepError(side); },
         [&](int side) { return dotError(side); });
@@ -56,7 +56,7 @@ TEST_F(DiffusionTruthSlow, aStepAndADotSpreadAsTheClosedFormsSay) {
 
 /// Errors of the mean image over edge positions within a texel: on the mean, interpolation between texels only adds the
 /// blur of a tent. Along u, along v.
-TEST_F(DiffusionTruth, anEdgeAnywhereBetweenTexelsSpreadsByTheClosedFormOnTheMean) {
+TEST_F(DiffusionTruth, anEdgeAnywhereBetweenTexelsDiffusesByTheClosedFormOnTheMean) {
     constexpr int kTexels = 256, kPlaces = 4;
     constexpr double kShare = 0.9; // scale of the coordinates, so that they can be moved
     scenes::Scene scene = stepScene();
@@ -84,7 +84,7 @@ TEST_F(DiffusionTruth, anEdgeAnywhereBetweenTexelsSpreadsByTheClosedFormOnTheMea
 }
 
 // A wide Gaussian after a narrow one, similar widths, and widths between which tap spacing grows.
-TEST_F(DiffusionTruth, anyTwoWidthsSpreadAStepAsTheClosedFormSays) {
+TEST_F(DiffusionTruth, anyTwoWidthsDiffuseAStepAsTheClosedFormSays) {
     for (const auto& [narrow, wide] : {std::pair(0.71, 17.9), {0.3, 30.0}, {1.5, 4.5}, {2.6, 5.0}, {5.0, 9.0}}) {
         const double error = stepErrorOf(narrow, wide);
         fmt::print("{} and {} texels: {:.2e}\n", narrow, wide, error);
@@ -143,7 +143,7 @@ TEST_F(DiffusionTruth, stretchedAndSlantedTexturesChangeNothing) {
 
 /// Edges of the light across v and at various angles to the texture. Uses means along the edge, which is only as
 /// straight as texels make it.
-TEST_F(DiffusionTruth, lightSpreadsAlikeAlongBothDirectionsOfATurnedOrSlantedTexture) {
+TEST_F(DiffusionTruth, lightDiffusesAlikeAlongBothDirectionsOfATurnedOrSlantedTexture) {
     scenes::Scene scene = scenes::loadScene("diffusion_truth");
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings;

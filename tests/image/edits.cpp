@@ -147,7 +147,8 @@ TEST_F(Edits, lightsAndCamerasAreDrawnAsTheyAre) {
 class ProgramsOf : public ImageTest {
 protected:
     /// Draws, and compares the programs listed before with those compiled.
-    void expectTold(engine::Renderer& renderer, const frame::FrameSettings& settings, const char* what, bool isOther) {
+    void expectReported(engine::Renderer& renderer, const frame::FrameSettings& settings, const char* what,
+                        bool isOther) {
         std::set<std::string> keys;
         for (const shader::ProgramDesc& program : renderer.programsOf(Technique::ClusteredDeferred, settings))
             keys.insert(program.key());
@@ -163,7 +164,7 @@ private:
     std::set<std::string> known_;
 };
 
-TEST_F(ProgramsOf, tellsWhatAnEditMakesDrawingCompile) {
+TEST_F(ProgramsOf, reportsWhatAnEditMakesDrawingCompile) {
     scenes::Scene scene = scenes::loadScene("room");
     scenes::Light light = scene.lights.at(0); // in view
     scene.lights.clear();
@@ -175,8 +176,8 @@ TEST_F(ProgramsOf, tellsWhatAnEditMakesDrawingCompile) {
     scene.lights.push_back(light);
     frame::FrameSettings settings = ofSize(32, 18);
     engine::Renderer renderer(context(), scene);
-    expectTold(renderer, settings, "the first frame", true);
-    expectTold(renderer, settings, "the same again", false);
+    expectReported(renderer, settings, "the first frame", true);
+    expectReported(renderer, settings, "the same again", false);
 
     struct Edit {
         const char* what;
@@ -214,7 +215,7 @@ TEST_F(ProgramsOf, tellsWhatAnEditMakesDrawingCompile) {
     for (const Edit& edit : edits) {
         edit.edit();
         renderer.materialsChanged();
-        expectTold(renderer, settings, edit.what, edit.isOther);
+        expectReported(renderer, settings, edit.what, edit.isOther);
     }
 }
 

@@ -46,7 +46,7 @@ BallFigures ballFigures(const std::vector<float>& seen, const validation::Refere
 double biasOfBall(engine::Renderer& renderer, const scenes::Scene& scene, frame::FrameSettings settings) {
     settings.sizePixels = {200, 200};
     reference::Settings wanted = validation::referenceSettings(scene, settings);
-    wanted.leeway = false;
+    wanted.findsAlternatives = false;
     wanted.environmentPaths = 64; // over 31,000 pixels: noise of 2e-4
     const reference::Rendered truth = reference::render(scene, wanted);
     const std::vector<float> seen = renderer.render(Technique::Deferred, settings).radiance;

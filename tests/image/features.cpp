@@ -212,7 +212,7 @@ TEST_SWEEP(Features, everyMaterialParameterChangesThePicture) {
         material("mask off", kMasked, [](Material& m) { m.alphaMode = scenes::AlphaMode::Opaque; }),
         material("opacity of a blended surface", kGlass, [](Material& m) { m.baseColor.a = 0.9f; }),
         material("transmission", kGlass, [](Material& m) { m.transmission = 0.8f; }),
-        material("transmission of what does not blend", kMasked, [](Material& m) { m.transmission = 0.8f; }),
+        material("transmission of unblended surfaces", kMasked, [](Material& m) { m.transmission = 0.8f; }),
         material("absorption of a body", kGlass,
                  [](Material& m) {
                      m.transmission = 0.8f;

@@ -65,8 +65,8 @@ TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
     const auto truthOf = [&](const Scene& scene) { return strictReference(scene, settings).picture; };
     const Scene without = everythingScene(), all = sceneWithGlass();
     const Picture before = truthOf(without);
-    const auto expectAgreement = [&](std::size_t number, const Material& material, double leeway) {
-        SCOPED_TRACE(fmt::format("{}, leeway {}", material.name, leeway));
+    const auto expectAgreement = [&](std::size_t number, const Material& material, double tolerance) {
+        SCOPED_TRACE(fmt::format("{}, tolerance {}", material.name, tolerance));
         Scene scene = without;
         scene.materials[number] = material;
         const Picture truth = truthOf(scene);
@@ -83,7 +83,7 @@ TEST_F(Glass, sheetsAmongAllMaterialsAgreeWithTheReference) {
         for (std::size_t pixel = 0; pixel < truth.pixelCount(); ++pixel) {
             if (!differs(before.rgba, pixel, kSame)) continue;
             ++glass;
-            wrong += differs(shown.radiance, pixel, leeway) ? 1 : 0;
+            wrong += differs(shown.radiance, pixel, tolerance) ? 1 : 0;
         }
         fmt::print("{}: {} of {} pixels differ\n", material.name, wrong, glass);
         EXPECT_GT(glass, 40);
@@ -160,7 +160,7 @@ TEST_F(Glass, aSceneWithoutItHasNoTraceOfIt) {
     EXPECT_FALSE(valuesOf(scene, "HAS_TRANSMISSION").empty());
     EXPECT_THAT(valuesOf(scene, "HAS_VOLUME"), Each("0"));
     EXPECT_THAT(planText(engine::planFrame(scene, Technique::Deferred, {})), ::testing::HasSubstr("transmission"))
-        << "told as left out";
+        << "reported as left out";
     scene.materials[0].transmission = 0.5f;
     scene.materials[0].dispersion = 1.0f;
     EXPECT_THAT(valuesOf(scene, "HAS_TRANSMISSION"), ::testing::Contains("1"));
@@ -170,24 +170,24 @@ TEST_F(Glass, aSceneWithoutItHasNoTraceOfIt) {
     EXPECT_THAT(valuesOf(scene, "HAS_DISPERSION"), ::testing::Contains("1"));
 }
 
-TEST_F(Glass, thatIsSmoothOrNotThereAsksForNoTableOfLobes) {
-    const auto asks = [](const Scene& scene) {
+TEST_F(Glass, thatIsSmoothOrNotThereNeedsNoTableOfLobes) {
+    const auto needsTable = [](const Scene& scene) {
         const std::string plan = planText(engine::planFrame(scene, Technique::Deferred, {}));
         const bool isThere = plan.find("lobe_table") != std::string::npos;
         EXPECT_THAT(definedValues(scene, "HAS_PASSING_LOBES"), Each(isThere ? "1" : "0"));
         return isThere;
     };
     Scene scene = quadScene({});
-    EXPECT_FALSE(asks(scene));
+    EXPECT_FALSE(needsTable(scene));
     scene.materials[0] = clearGlass();
-    EXPECT_FALSE(asks(scene));
+    EXPECT_FALSE(needsTable(scene));
     scene.materials[0].anisotropyStrength = 0.5f;
-    EXPECT_TRUE(asks(scene));
+    EXPECT_TRUE(needsTable(scene));
     scene.materials[0] = clearGlass();
     scene.materials[0].perceptualRoughness = 0.1f;
-    EXPECT_TRUE(asks(scene));
+    EXPECT_TRUE(needsTable(scene));
     scene.materials[0].transmission = 0.0f;
-    EXPECT_FALSE(asks(scene));
+    EXPECT_FALSE(needsTable(scene));
 }
 
 } // namespace

@@ -138,8 +138,8 @@ TEST_F(GlassBackFaces, absorbsAlongTheWayToTheBackThatItsRaysMeet) {
     tinted.dispersion = 4.0f; // indices of 1.9, 2 and 2.1
     constexpr double kIors[] = {1.9, 2.0, 2.1};
     const frame::FrameSettings settings = seeing(Refraction::BackFaces);
-    const auto expectLeft = [&](scenes::Mesh mesh, double tiltRadians, const auto& wayMetres, double leeway,
-                                double truthLeeway) {
+    const auto expectLeft = [&](scenes::Mesh mesh, double tiltRadians, const auto& wayMetres, double tolerance,
+                                double truthTolerance) {
         Scene scene = quadScene(tinted);
         scene.meshes[0] = std::move(mesh);
         placeQuad(scene.nodes[0], 0.0, 1.0, tiltRadians);
@@ -154,8 +154,9 @@ TEST_F(GlassBackFaces, absorbsAlongTheWayToTheBackThatItsRaysMeet) {
                 for (int c = 0; c < 3; ++c) {
                     const double way = wayMetres(std::hypot(metresOf(x), metresOf(y)), kIors[c]);
                     const double wanted = std::pow(double(tinted.attenuationColor[c]), way);
-                    ASSERT_NEAR(at(shown, x, y)[c], wanted, leeway * wanted) << tiltRadians << " at " << x << ", " << y;
-                    ASSERT_NEAR(at(truth, x, y)[c], wanted, truthLeeway * wanted)
+                    ASSERT_NEAR(at(shown, x, y)[c], wanted, tolerance * wanted)
+                        << tiltRadians << " at " << x << ", " << y;
+                    ASSERT_NEAR(at(truth, x, y)[c], wanted, truthTolerance * wanted)
                         << "reference, " << tiltRadians << " at " << x << ", " << y;
                 }
             }
@@ -277,7 +278,7 @@ class GlassThickness : public GlassTest {};
 
 /// Back faces determine the path length in a body. Its absorption per metre stays the same down to a stated thickness
 /// that absorbs less than a rounding of the light.
-TEST_F(GlassThickness, countsForNothingWhereBackFacesTellTheWay) {
+TEST_F(GlassThickness, countsForNothingWhereBackFacesGiveTheWay) {
     constexpr double kDeepMetres = 0.4;
     scenes::Material tinted = bareGlass(1.5);
     tinted.attenuationDistanceMetres = 1.0f;

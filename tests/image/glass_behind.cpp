@@ -65,8 +65,8 @@ TEST_F(GlassBehind, thatBendsNothingShowsExactlyWhatStandsThere) {
             drawn(coveredByGlass(wall, bareGlass(1.0), kBehindTiltRadians), settings, Technique::Forward);
         ASSERT_EQ(shown.size(), plain.size());
         // With several samples each shows the mean of all: their sum may round once more.
-        const float leeway = one.samples == 1 ? 0.0f : 1e-6f;
-        for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(shown[i], plain[i], leeway) << i;
+        const float tolerance = one.samples == 1 ? 0.0f : 1e-6f;
+        for (std::size_t i = 0; i < plain.size(); ++i) ASSERT_NEAR(shown[i], plain[i], tolerance) << i;
     }
 }
 
@@ -126,7 +126,7 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
     EXPECT_THAT(planOf(covered, Refraction::BackFaces), HasSubstr("far_sides"));
     EXPECT_THAT(planOf(checkedWall(), Refraction::BackFaces), Not(HasSubstr("far_sides")));
     EXPECT_THAT(planOf(covered, Refraction::ClosedMeshes), Not(HasSubstr("far_sides")));
-    EXPECT_THAT(planOf(covered, Refraction::ClosedMeshes), HasSubstr("back faces of glass")) << "told as left out";
+    EXPECT_THAT(planOf(covered, Refraction::ClosedMeshes), HasSubstr("back faces of glass")) << "reported as left out";
     Scene closed = covered;
     scenes::builtin::appendBox(closed.meshes.emplace_back(), {-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5});
     closed.nodes.back().instances[0].mesh = int(closed.meshes.size()) - 1;
@@ -135,7 +135,7 @@ TEST_F(GlassBehind, hasNoTraceWhereThereIsNothingToShow) {
     Scene onlyGlass = quadScene(bareGlass(1.5));
     for (const Scene& scene : {checkedWall(), coveredByGlass(checkedWall(), clearGlass()), onlyGlass}) {
         EXPECT_THAT(planOf(scene), Not(HasSubstr("behind_glass")));
-        EXPECT_THAT(planOf(scene), HasSubstr("surfaces behind glass")) << "told as left out";
+        EXPECT_THAT(planOf(scene), HasSubstr("surfaces behind glass")) << "reported as left out";
         EXPECT_FALSE(hasDefine(scene, "HAS_SCENE_BEHIND"));
     }
 }

@@ -352,7 +352,7 @@ TEST_F(GlassBehindTruth, aRoughSheetSpreadsLightAsTwoSidesDoAndBendsNone) {
 
 /// Two panes without refraction and reflection in front of a wall: each multiplies the transmitted light by its colour.
 /// The reference with glass behind glass has both, without it only the nearer one, as the renderer has.
-TEST_F(GlassBehindTruth, behindGlassIsInTheReferenceAsDeepAsItIsAskedFor) {
+TEST_F(GlassBehindTruth, behindGlassIsInTheReferenceAsDeepAsItIsRequested) {
     Material near = bareGlass(1.0), far = bareGlass(1.0);
     near.baseColor = {0.5f, 0.75f, 1.0f, 1.0f};
     far.baseColor = {0.8f, 0.4f, 0.2f, 1.0f};

@@ -100,7 +100,7 @@ double reflectedOfEvenLight(double alpha, double cosView, double straight) {
 /// the lobe itself.
 TEST_F(GlassTruth, roughInEvenLightShowsThatLightAtAnyAngle) {
     constexpr double kLeastCosine = 0.05;
-    for (const auto& [light, leeway] :
+    for (const auto& [light, tolerance] :
          {std::pair(EnvironmentLight::SplitSum, 1e-3f), {EnvironmentLight::Sampled, 8e-3f}})
         for (const float thickness : {0.0f, 0.1f}) {
             Material glass = clearGlass();
@@ -120,7 +120,7 @@ TEST_F(GlassTruth, roughInEvenLightShowsThatLightAtAnyAngle) {
                     for (int x = 0; x < kGlassPixels; ++x) {
                         const double cosView = glm::dot(kSteepGlass.normal(), kSteepGlass.toViewer(x, y));
                         if (cosView < kLeastCosine) continue;
-                        ASSERT_NEAR(shown[std::size_t(4 * (y * kGlassPixels + x))], 1.0f, leeway)
+                        ASSERT_NEAR(shown[std::size_t(4 * (y * kGlassPixels + x))], 1.0f, tolerance)
                             << thickness << ", " << infoOf(light).name << ", " << roughness << ", cosine " << cosView;
                         grazing += cosView < 0.15 ? 1 : 0;
                     }
@@ -133,7 +133,7 @@ TEST_F(GlassTruth, roughInEvenLightShowsThatLightAtAnyAngle) {
 TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
     constexpr double kStraight = 0.04;
     struct Case {
-        double roughness, leastCosine, leeway;
+        double roughness, leastCosine, tolerance;
     };
     // The table's interpolation error is 2e-4. Below an alpha of 0.01 lobes blend into mirrors, which differ from them
     // by 7e-3 at the most.
@@ -142,7 +142,7 @@ TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
     Scene scene = kSteepGlass.sceneOf(clearGlass());
     scene.background = glm::vec3(1.0f);
     engine::Renderer renderer(context(), scene);
-    for (const auto& [roughness, leastCosine, leeway] : kCases) {
+    for (const auto& [roughness, leastCosine, tolerance] : kCases) {
         scene.materials[0].perceptualRoughness = float(roughness);
         renderer.materialsChanged();
         const std::vector<float> shown = renderer.render(Technique::Deferred, ofSide(kGlassPixels)).radiance;
@@ -152,7 +152,7 @@ TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
                 const double cosView = glm::dot(kSteepGlass.normal(), kSteepGlass.toViewer(x, y));
                 if (cosView < leastCosine) continue;
                 const double wanted = 1.0 - reflectedOfEvenLight(roughness * roughness, cosView, kStraight);
-                ASSERT_NEAR(shown[std::size_t(4 * (y * kGlassPixels + x))], wanted, leeway)
+                ASSERT_NEAR(shown[std::size_t(4 * (y * kGlassPixels + x))], wanted, tolerance)
                     << roughness << ", cosine " << cosView;
                 const double mirrored = kStraight + (1.0 - kStraight) * std::pow(1.0 - cosView, 5.0);
                 unlikeMirror = std::max(unlikeMirror, std::abs(wanted - (1.0 - mirrored)));
@@ -164,7 +164,7 @@ TEST_F(GlassTruth, roughPassesWhatItsLobeDoesNotReflect) {
 /// The same for a lobe with two alphas, which no table holds: 24 of its microfacets approximate it.
 TEST_F(GlassTruth, ofTwoAlphasPassesWhatItsLobeDoesNotReflect) {
     constexpr double kStraight = 0.04, kLeastCosine = 0.05;
-    constexpr double kLeeway = 0.0125; // for random alphas and angles 24 microfacets are off by 0.0121
+    constexpr double kTolerance = 0.0125; // for random alphas and angles 24 microfacets are off by 0.0121
     Scene scene = kSteepGlass.sceneOf(clearGlass());
     scene.background = glm::vec3(1.0f);
     engine::Renderer renderer(context(), scene);
@@ -196,7 +196,7 @@ TEST_F(GlassTruth, ofTwoAlphasPassesWhatItsLobeDoesNotReflect) {
                         const double off = shown[std::size_t(4 * (y * kGlassPixels + x))] - wanted;
                         worst = std::max(worst, std::abs(off));
                     }
-                EXPECT_LT(worst, kLeeway) << roughness << ", " << strength << ", " << turnDegrees;
+                EXPECT_LT(worst, kTolerance) << roughness << ", " << strength << ", " << turnDegrees;
             }
 }
 

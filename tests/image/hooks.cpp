@@ -261,7 +261,7 @@ TEST_F(Hooks, anEditShowsAndAFaultyOneKeepsTheLastGoodForm) {
 }
 
 /// Entering light is cached, but not across an edit of the hook's colour.
-TEST_F(Hooks, anEditShowsInLightThatHasSpread) {
+TEST_F(Hooks, anEditShowsInDiffusedLight) {
     scenes::Material skin = lambert();
     skin.subsurface.method = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
     scenes::Scene lit = quadScene(skin);
@@ -276,7 +276,7 @@ TEST_F(Hooks, anEditShowsInLightThatHasSpread) {
     EXPECT_TRUE(renderer.programs().reload().faults.empty());
     const std::vector<float> after = renderer.render(Technique::Forward, smallSettings()).radiance;
     EXPECT_NE(after, before);
-    EXPECT_EQ(after, drawn(hooked(lit, kRed), smallSettings())) << "as a renderer that knows no other";
+    EXPECT_EQ(after, drawn(hooked(lit, kRed), smallSettings())) << "as a renderer without another";
 }
 
 /// Without discontinuities, whose pixels would depend on rounding.
@@ -340,13 +340,13 @@ TEST_F(ReferenceOfHooks, oneThatMovesVerticesAndChangesThemIsTakenWhole) {
     expectAgreement(scene, 0.75);
 }
 
-TEST_F(ReferenceOfHooks, lightThatSpreadsBelowWhatTheyChangeIsRefusedByName) {
+TEST_F(ReferenceOfHooks, diffusionBelowWhatTheyChangeIsRefusedByName) {
     const scenes::Scene scene = hooked(everythingScene(), kSmooth);
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings = smallSettings();
     settings.subsurface = scenes::SubsurfaceMethod::TextureSpaceDiffusion;
     EXPECT_THAT([&] { validation::referencePicture(renderer, settings); },
-                ThrowsMessage<InputError>(HasSubstr("the reference knows no light that spreads below")));
+                ThrowsMessage<InputError>(HasSubstr("the reference diffuses no light below")));
 }
 
 } // namespace

@@ -49,9 +49,9 @@ protected:
     }
 
     LightOracleFigures judge(engine::Renderer& renderer, Method method, int tilePixels, glm::ivec2 sizePixels) {
-        frame::FrameSettings asked = settings(sizePixels, method, tilePixels);
-        asked.culling.normals = culling::NormalTest::Off; // LightNormals judges lists by normals
-        const LightOracleFigures figures = validation::judgeLights(renderer, deferredWith(method), asked);
+        frame::FrameSettings requested = settings(sizePixels, method, tilePixels);
+        requested.culling.normals = culling::NormalTest::Off; // LightNormals judges lists by normals
+        const LightOracleFigures figures = validation::judgeLights(renderer, deferredWith(method), requested);
         expectSound(figures);
         fmt::print("{:<22} {:<12} tile {:>2}: visited {:6.2f} p99 {:4} max {:4}, tightness {:.3f} (lit {:.3f}), {} "
                    "entries, {} cells, {:.2f} MB\n",
@@ -117,12 +117,12 @@ TEST_F(LightCulling, depthSlicesPayWhereDepthHasDeepGaps) {
 TEST_F(LightCulling, theOracleNoticesALightThatAListLacksOrHasTooMuch) {
     const scenes::Scene scene = lattice(64);
     engine::Renderer renderer(context(), scene);
-    frame::FrameSettings asked = settings({160, 90}, Method::TileMinmax);
-    asked.culling.normals = culling::NormalTest::Off; // judged without normals
-    renderer.draw(Technique::TiledDeferred, asked);
+    frame::FrameSettings requested = settings({160, 90}, Method::TileMinmax);
+    requested.culling.normals = culling::NormalTest::Off; // judged without normals
+    renderer.draw(Technique::TiledDeferred, requested);
     engine::DrawnLists drawn = renderer.downloadLists();
     const std::vector<float> depth = renderer.downloadDepth();
-    const auto judged = [&] { return validation::judgeLights({scene, asked, drawn, depth, {}}); };
+    const auto judged = [&] { return validation::judgeLights({scene, requested, drawn, depth, {}}); };
     const LightOracleFigures good = judged();
     EXPECT_EQ(good.falseNegatives, 0u);
     ASSERT_GT(good.needed, 0u);
@@ -158,15 +158,15 @@ LightCulling::Seen LightCulling::expectSoundScene(scenes::Scene scene, std::uint
     for (const Method method : kMethods) {
         const int tile = culling::kTileSides[random.index(4)];
         SCOPED_TRACE(fmt::format("seed {} {} tile {} {}x{}", seed, infoOf(method).name, tile, size.x, size.y));
-        frame::FrameSettings asked = settings(size, method, tile);
-        asked.prune = truthSettings.prune;
-        asked.culling.normals = culling::NormalTest::Off; // LightNormals covers them
-        asked.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
+        frame::FrameSettings requested = settings(size, method, tile);
+        requested.prune = truthSettings.prune;
+        requested.culling.normals = culling::NormalTest::Off; // LightNormals covers them
+        requested.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
         const Technique technique = random.unit() < 0.5 ? deferredWith(method) : forwardWith(method);
-        EXPECT_EQ(renderer.render(technique, asked).radiance, truth);
+        EXPECT_EQ(renderer.render(technique, requested).radiance, truth);
         const engine::DrawnLists drawn = renderer.downloadLists();
         const std::vector<float> depth = renderer.downloadDepth();
-        const LightOracleFigures figures = validation::judgeLights({scene, asked, drawn, depth, {}});
+        const LightOracleFigures figures = validation::judgeLights({scene, requested, drawn, depth, {}});
         expectSound(figures);
         seen.needed += figures.needed;
         seen.evaluated += figures.evaluated;
@@ -303,15 +303,15 @@ TEST_SWEEP(LightCulling, noLightIsMissingFromTheListsOfTransparentSurfaces) {
             for (std::size_t i = 0; i < std::size(culling::kTileSides); ++i) {
                 if (!isWholeSweep() && i != (seed + std::uint64_t(method)) % std::size(culling::kTileSides)) continue;
                 const int tile = culling::kTileSides[i];
-                frame::FrameSettings asked = settings({97, 61}, method, tile);
-                asked.prune = plain.prune;
-                asked.culling.normals = culling::NormalTest::Off; // lists of transparent surfaces ignore normals
-                renderer.draw(deferredWith(method), asked);
+                frame::FrameSettings requested = settings({97, 61}, method, tile);
+                requested.prune = plain.prune;
+                requested.culling.normals = culling::NormalTest::Off; // lists of transparent surfaces ignore normals
+                renderer.draw(deferredWith(method), requested);
                 const engine::DrawnLists drawn = renderer.downloadLists();
                 for (const std::vector<float>& depth : depths) {
                     SCOPED_TRACE(fmt::format("seed {} {} tile {}", seed, infoOf(method).name, tile));
                     const LightOracleFigures figures = validation::judgeLights(
-                        {scene, asked, drawn, depth, {}, validation::SurfaceLayer::Transparent});
+                        {scene, requested, drawn, depth, {}, validation::SurfaceLayer::Transparent});
                     expectSound(figures);
                     needed += figures.needed;
                     transparent += figures.covered;
@@ -361,11 +361,11 @@ TEST_F(LightCulling, sixtyFiveThousandLightsInOneTileAreAllVisited) {
 
 TEST_F(LightCulling, theOrderOfTheLightsNeverMattersBeyondRoundingOfTheSum) {
     scenes::Scene scene = lattice(256);
-    const frame::FrameSettings asked = settings({320, 181}, Method::Cluster);
-    const Picture ordered = engine::toPicture(frameOf(scene, asked, Technique::ClusteredDeferred));
+    const frame::FrameSettings requested = settings({320, 181}, Method::Cluster);
+    const Picture ordered = engine::toPicture(frameOf(scene, requested, Technique::ClusteredDeferred));
     scenes::Scene turned = scene;
     std::reverse(turned.lights.begin(), turned.lights.end());
-    const Picture reversed = engine::toPicture(frameOf(turned, asked, Technique::ClusteredDeferred));
+    const Picture reversed = engine::toPicture(frameOf(turned, requested, Technique::ClusteredDeferred));
     const validation::ErrorFigures figures = validation::errorFigures(reversed, ordered);
     // Terms are positive, so a sum of n terms in any order is off by at most (n - 1) 2^-24 of itself, twice here; no
     // pixel visits more than 64 of these lights.
@@ -383,9 +383,9 @@ TEST_F(LightCulling, lightsThatCannotChangeAPixelAreNotEvaluated) {
     engine::Renderer renderer(context(), scene);
     const engine::RenderedFrame none = renderer.render(Technique::Forward, settings({64, 36}));
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-        frame::FrameSettings asked = settings({64, 36});
-        EXPECT_EQ(renderer.render(technique.technique, asked).radiance, none.radiance);
-        const LightOracleFigures figures = validation::judgeLights(renderer, technique.technique, asked);
+        frame::FrameSettings requested = settings({64, 36});
+        EXPECT_EQ(renderer.render(technique.technique, requested).radiance, none.radiance);
+        const LightOracleFigures figures = validation::judgeLights(renderer, technique.technique, requested);
         EXPECT_EQ(figures.evaluated + figures.everywhere, 0u) << technique.name;
         EXPECT_EQ(figures.listBytes, 0u) << technique.name;
     }

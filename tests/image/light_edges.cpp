@@ -137,19 +137,19 @@ void LightEdges::expectSound(std::uint64_t seeds, const std::function<double(std
         lights += scene.lights.size();
         const std::vector<float> truth = renderer.render(Technique::Forward, settings).radiance;
         for (const Methods& method : kEdgeMethods) {
-            frame::FrameSettings asked = settings;
-            asked.culling.method = method.method;
-            asked.culling.tilePixels = culling::kTileSides[random.index(4)];
-            asked.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
+            frame::FrameSettings requested = settings;
+            requested.culling.method = method.method;
+            requested.culling.tilePixels = culling::kTileSides[random.index(4)];
+            requested.culling.builder = culling::builderTable()[std::size_t(random.index(3))].builder;
             SCOPED_TRACE(fmt::format("seed {}, {}, tile {}, {}x{}", seed, infoOf(method.method).name,
-                                     *asked.culling.tilePixels, asked.sizePixels.x, asked.sizePixels.y));
-            asked.culling.normals = ofHorizon ? culling::NormalTest::On : culling::NormalTest::Off;
-            if (ofHorizon) asked.culling.builder = Builder::Cpu;
+                                     *requested.culling.tilePixels, requested.sizePixels.x, requested.sizePixels.y));
+            requested.culling.normals = ofHorizon ? culling::NormalTest::On : culling::NormalTest::Off;
+            if (ofHorizon) requested.culling.builder = Builder::Cpu;
             const Technique technique = method.techniques[ofHorizon ? 0 : random.index(2)];
-            EXPECT_TRUE(renderer.render(technique, asked).radiance == truth);
+            EXPECT_TRUE(renderer.render(technique, requested).radiance == truth);
             EXPECT_EQ(renderer.downloadLists().culling.normals == culling::NormalTest::On,
                       ofHorizon && method.method != Method::Zbin);
-            const validation::LightOracleFigures figures = validation::judgeLights(renderer, technique, asked);
+            const validation::LightOracleFigures figures = validation::judgeLights(renderer, technique, requested);
             const validation::LightOracleFigures::Pair first =
                 figures.firstMissing.value_or(validation::LightOracleFigures::Pair{});
             EXPECT_EQ(figures.falseNegatives, 0u)

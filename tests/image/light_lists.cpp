@@ -81,7 +81,7 @@ protected:
         const std::vector<float> truth = renderer.render(Technique::Forward, pruned).radiance;
         std::size_t turn = 0;
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-            if (!engine::takesSamples(technique, settings.samples)) continue;
+            if (!engine::supportsSamples(technique, settings.samples)) continue;
             std::vector<culling::Method> methods(technique.methods.begin(), technique.methods.end());
             std::erase(methods, culling::Method::None);
             if (methods.empty()) continue;

@@ -244,10 +244,10 @@ TEST_F(LightNormals, aFrameThatIsNotPrunedExpectsCoatsAndCullsByReach) {
     EXPECT_EQ(renderer.downloadLists().culling.normals, culling::NormalTest::Off);
 }
 
-TEST_F(LightNormals, thePlanTellsWhetherNormalsAreLookedAtAndWhy) {
+TEST_F(LightNormals, thePlanReportsWhetherNormalsAreLookedAtAndWhy) {
     const scenes::Scene scene = latticeLitBy(64);
-    const auto told = [&](Technique technique, Method method, std::optional<culling::NormalTest> test,
-                          culling::Builder builder = culling::Builder::Cpu, bool prune = true) {
+    const auto reported = [&](Technique technique, Method method, std::optional<culling::NormalTest> test,
+                              culling::Builder builder = culling::Builder::Cpu, bool prune = true) {
         frame::FrameSettings settings = normalSettings({160, 90}, method, 8);
         settings.prune = prune;
         settings.softwareBackend = true;
@@ -258,19 +258,19 @@ TEST_F(LightNormals, thePlanTellsWhetherNormalsAreLookedAtAndWhy) {
         return std::string("nothing");
     };
     using culling::NormalTest;
-    EXPECT_EQ(told(Technique::TiledDeferred, Method::TileMinmax, {}),
+    EXPECT_EQ(reported(Technique::TiledDeferred, Method::TileMinmax, {}),
               "where_worth: read back where lists hold 12 lights or more on average");
-    EXPECT_EQ(told(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On),
+    EXPECT_EQ(reported(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On),
               "on: chosen by the setting cull-normals; automatic restores the default");
-    EXPECT_EQ(told(Technique::ClusteredDeferred, Method::Zbin, NormalTest::On),
+    EXPECT_EQ(reported(Technique::ClusteredDeferred, Method::Zbin, NormalTest::On),
               "off: the bitmasks of zbin are of all a tile or a bin shows");
-    EXPECT_EQ(told(Technique::ForwardPlus, Method::TileMinmax, {}),
+    EXPECT_EQ(reported(Technique::ForwardPlus, Method::TileMinmax, {}),
               "off: the technique stores no normals before it builds lists");
-    EXPECT_EQ(told(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On, culling::Builder::Compute),
+    EXPECT_EQ(reported(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On, culling::Builder::Compute),
               "off: only the builder cpu reads normals");
-    EXPECT_EQ(told(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On, culling::Builder::Cpu, false),
+    EXPECT_EQ(reported(Technique::TiledDeferred, Method::TileMinmax, NormalTest::On, culling::Builder::Cpu, false),
               "off: a frame that is not pruned expects clear coats, which light from behind the surface changes");
-    EXPECT_EQ(told(Technique::TiledDeferred, Method::None, NormalTest::On), "nothing");
+    EXPECT_EQ(reported(Technique::TiledDeferred, Method::None, NormalTest::On), "nothing");
 }
 
 TEST_SWEEP_AS(LightNormals, randomScenesKeepTheirPicture, LightNormalsSlow, aHundredRandomScenesKeepTheirPicture) {

@@ -123,7 +123,7 @@ TEST_SWEEP(LightRange, anEndedLightIsExactlyTheSameWithEveryTechniqueAndCullingM
         request.settings = settings;
         request.settings.culling.method = method.method;
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-            if (!engine::takesMethod(technique.technique, method.method)) continue;
+            if (!engine::supportsMethod(technique.technique, method.method)) continue;
             // Two techniques share each method with light lists.
             if (!isWhole && engine::hasLightLists(technique.technique) && turn++ % 2 != std::size_t(method.method) % 2)
                 continue;

@@ -70,11 +70,11 @@ void LightRounds::expectEveryLight(int count, bool every, std::size_t turn) {
     // An fp32 sum of N terms is off by at most N 2^-24 of itself. The last light of a run is a fifth of its pixel.
     EXPECT_LE(figures.maxRel, std::max(1e-4, count * 0x1p-24));
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-        frame::FrameSettings asked = settings();
+        frame::FrameSettings requested = settings();
         for (const Method method : technique.methods) {
             if (!every && turn++ % 3 != 0) continue;
-            asked.culling.method = method;
-            EXPECT_TRUE(renderer.render(technique.technique, asked).radiance == forward.radiance)
+            requested.culling.method = method;
+            EXPECT_TRUE(renderer.render(technique.technique, requested).radiance == forward.radiance)
                 << technique.name << ", " << infoOf(method).name;
         }
     }
@@ -114,19 +114,19 @@ TEST_SWEEP(LightRounds, listsBuiltOnTheGpuNeverLackALight) {
         const bool tiled = method == Method::TileMinmax || method == Method::Tile25d;
         for (const int lanes : inTurn(kLanesATile, turn++)) {
             SCOPED_TRACE(fmt::format("{}, {} lanes", infoOf(method).name, lanes));
-            frame::FrameSettings asked = settings();
-            asked.culling.method = method;
-            asked.culling.builder = Builder::Compute;
-            asked.culling.lanes = lanes;
+            frame::FrameSettings requested = settings();
+            requested.culling.method = method;
+            requested.culling.builder = Builder::Compute;
+            requested.culling.lanes = lanes;
             const Technique technique = tiled ? Technique::TiledDeferred : Technique::ClusteredDeferred;
-            EXPECT_TRUE(renderer.render(technique, asked).radiance == forward);
+            EXPECT_TRUE(renderer.render(technique, requested).radiance == forward);
         }
     }
 }
 
 void LightRounds::expectOnePicture(const scenes::Scene& scene) {
-    frame::FrameSettings asked = settings();
-    asked.sizePixels = {97, 61};
+    frame::FrameSettings requested = settings();
+    requested.sizePixels = {97, 61};
     std::vector<float> first;
     for (std::size_t perRound = 1; perRound <= frame::kMostLightsPerRound; perRound *= 2) {
         const ShaderMutant shaders;
@@ -137,9 +137,9 @@ void LightRounds::expectOnePicture(const scenes::Scene& scene) {
              {std::pair(Technique::Forward, Method::None), std::pair(Technique::ClusteredForward, Method::Cluster),
               std::pair(Technique::ClusteredDeferred, Method::Zbin)}) {
             SCOPED_TRACE(fmt::format("{}, {} lights a round", infoOf(technique).name, perRound));
-            asked.culling = {};
-            if (method != Method::None) asked.culling.method = method;
-            const std::vector<float> picture = renderer.render(technique, asked).radiance;
+            requested.culling = {};
+            if (method != Method::None) requested.culling.method = method;
+            const std::vector<float> picture = renderer.render(technique, requested).radiance;
             if (first.empty()) first = picture;
             EXPECT_TRUE(picture == first);
         }

@@ -158,7 +158,7 @@ using ModelsSlow = Models;
 double blackShare(gpu::Context& context, const scenes::LoadOptions& options) {
     const scenes::Scene scene = scenes::loadScene((ownModelsFolder() / "three_metals.gltf").string(), options);
     engine::ViewRequest request;
-    engine::takeWishes(scene, scene.name, request, [](const engine::Setting&) { return false; });
+    engine::applyRequestedOptions(scene, scene.name, request, [](const engine::Setting&) { return false; });
     request.settings.sizePixels = {160, 90};
     request.settings.display = true;
     engine::Renderer renderer(context, scene);
@@ -206,10 +206,11 @@ protected:
     static constexpr int kSide = 64;
 
     /// Renders the model unlit with the default camera, with this material in its MTL file.
-    std::vector<float> shown(const std::string& mtl, const std::string& obj, const scenes::ImportWishes& wishes = {}) {
+    std::vector<float> shown(const std::string& mtl, const std::string& obj,
+                             const scenes::ImportOptions& importOptions = {}) {
         folder_.write("m.mtl", "newmtl m\nillum 0\n" + mtl);
         scenes::LoadOptions options;
-        options.import = wishes;
+        options.import = importOptions;
         const scenes::Scene scene =
             scenes::loadScene(folder_.write("m.obj", "mtllib m.mtl\nusemtl m\n" + obj).string(), options);
         frame::FrameSettings settings = ofSize(kSide, kSide);
@@ -236,7 +237,7 @@ TEST_F(ObjModels, vertexColoursAreSrgbOrLinear) {
     quad += "f 1 2 3 4\n";
     // Half of an 8-bit step of the G-buffer.
     EXPECT_NEAR(center(shown("", quad)).x, 0.5f, 0.003f);
-    scenes::ImportWishes linear;
+    scenes::ImportOptions linear;
     linear.objColours = scenes::ObjColours::Linear;
     EXPECT_NEAR(center(shown("", quad, linear)).x, 0.7353606f, 0.003f);
 }

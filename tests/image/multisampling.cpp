@@ -23,7 +23,7 @@ protected:
                          std::optional<std::size_t> turn = {}) {
         validation::CompareRequest request;
         std::vector<validation::LeftOutTechnique> leftOut;
-        request.techniques = validation::techniquesTaking(settings, leftOut);
+        request.techniques = validation::techniquesSupporting(settings, leftOut);
         std::erase(request.techniques, Technique::Forward);
         if (turn) request.techniques = techniquesInTurn(*turn, settings.samples);
         request.settings = settings;
@@ -97,7 +97,7 @@ TEST_SWEEP(Multisampling, everyCullingMethodAndTileGivesExactlyForwardsPicture) 
         settings.prune = !isWholeSweep() || i % 4 == 0;
         std::vector<Case> cases;
         for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
-            if (!engine::takesSamples(info, settings.samples)) continue;
+            if (!engine::supportsSamples(info, settings.samples)) continue;
             for (const culling::Method method : info.methods) {
                 const std::span<const int> tiles(culling::kTileSides);
                 for (const int tile : method == culling::Method::None ? tiles.first(1) : tiles)

@@ -158,7 +158,7 @@ TEST_SWEEP(Mutants, everyCaseFailsWhereItsMeasuredQuantityIsHalved) {
     for (const validation::StressCase& row : rows) request.cases.push_back(&row);
     for (const validation::StressResult& result : validation::runStress(context(), request)) {
         EXPECT_FALSE(result.held() <= result.tolerance) << result.name << " holds at half the signal: " << result.held()
-                                                        << ", at most " << result.tolerance << " is asked";
+                                                        << ", at most " << result.tolerance << " is required";
         EXPECT_GT(result.figures.samples, 0u) << result.name;
     }
 }

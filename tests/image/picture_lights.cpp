@@ -27,16 +27,16 @@ constexpr ListCase kListCases[] = {{Technique::Forward, {}, false},
                                    {Technique::ClusteredDeferred, Method::Zbin},
                                    {Technique::ClusteredForward, Method::Cluster}};
 
-class PictureLightsTold : public ImageTest {
+class CountedPictureLights : public ImageTest {
 protected:
     using NearestSurfaces = std::vector<std::optional<viewer::InspectedSurface>>;
 
     static engine::ViewRequest request(Technique technique, frame::DebugView view, std::optional<Method> method = {}) {
-        engine::ViewRequest asked{technique, {}};
-        asked.settings.sizePixels = {150, 85}; // with partial tiles
-        asked.settings.view = view;
-        asked.settings.culling.method = method;
-        return asked;
+        engine::ViewRequest requested{technique, {}};
+        requested.settings.sizePixels = {150, 85}; // with partial tiles
+        requested.settings.view = view;
+        requested.settings.culling.method = method;
+        return requested;
     }
 
     /// Nearest surfaces by pixel, rows from the top, transparent ones too, with the fields that visitsOf() reads.
@@ -47,11 +47,11 @@ protected:
                 const scenes::Material& material = scene.materials[std::size_t(instance.material)];
                 viewer::InspectedSurface& surface = ofInstances.emplace_back();
                 surface.isTransparent = scenes::isTransparent(material);
-                surface.takesLight = scenes::infoOf(material.model).isLit;
+                surface.isLit = scenes::infoOf(material.model).isLit;
             }
-        engine::ViewRequest asked = request(Technique::Forward, frame::DebugView::Ids);
-        asked.settings.idsOfNearest = true;
-        renderer.draw({&asked, 1});
+        engine::ViewRequest requested = request(Technique::Forward, frame::DebugView::Ids);
+        requested.settings.idsOfNearest = true;
+        renderer.draw({&requested, 1});
         const engine::RenderedFrame ids = renderer.download();
         NearestSurfaces surfaces(ids.radiance.size() / 4);
         for (std::size_t pixel = 0; pixel < surfaces.size(); ++pixel) {
@@ -83,8 +83,8 @@ protected:
                     continue;
                 }
                 wrong += !visited || float(*visited) != shown.radiance[4 * pixel];
-                unlit += !surface->takesLight;
-                if (visited && surface->takesLight) counts.insert(*visited);
+                unlit += !surface->isLit;
+                if (visited && surface->isLit) counts.insert(*visited);
             }
         EXPECT_EQ(wrong, 0);
         EXPECT_GT(bare, 0);
@@ -94,7 +94,7 @@ protected:
     }
 };
 
-TEST_F(PictureLightsTold, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShows) {
+TEST_F(CountedPictureLights, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShows) {
     scenes::Scene scene = latticeOf(256);
     scene.lights.push_back(pointLight({0.0, 0.0, 0.0}, 1.0f)); // one that reaches everywhere
     scene.lights.front().enabled = false;
@@ -102,7 +102,7 @@ TEST_F(PictureLightsTold, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShow
     for (const auto& [technique, method, culls] : kListCases) {
         SCOPED_TRACE(infoOf(technique).name);
         const engine::ViewRequest lit = request(technique, frame::DebugView::Final, method);
-        ASSERT_TRUE(PictureLights::areTold(lit));
+        ASSERT_TRUE(PictureLights::areCounted(lit));
         renderer.draw({&lit, 1});
         const PictureLights lights(renderer);
         const engine::ViewRequest counted = request(technique, frame::DebugView::Lights, method);
@@ -130,14 +130,14 @@ TEST_F(PictureLightsTold, aPixelOfTheLitPictureVisitsAsManyAsTheViewOfLightsShow
 
 /// In a short sweep Lambert materials, and the lit image with one technique: compilation takes most of the time, and
 /// lists do not depend on lobes.
-TEST_SWEEP(PictureLightsTold, ofLightsOfEveryTypeOnlyOpaqueSurfacesTellTheirVisits) {
+TEST_SWEEP(CountedPictureLights, ofLightsOfEveryTypeOnlyOpaqueSurfacesReportTheirVisits) {
     const scenes::Scene scene = withAreaLights(isWholeSweep() ? everythingScene() : lambertScene());
     engine::Renderer renderer(context(), scene);
     const NearestSurfaces surfaces = nearestSurfaces(renderer, scene);
     for (const auto& [technique, method, culls] : kListCases) {
         SCOPED_TRACE(infoOf(technique).name);
         const engine::ViewRequest counted = request(technique, frame::DebugView::Lights, method);
-        ASSERT_TRUE(PictureLights::areTold(counted));
+        ASSERT_TRUE(PictureLights::areCounted(counted));
         renderer.draw({&counted, 1});
         const engine::RenderedFrame shown = renderer.download();
         expectShown(PictureLights(renderer), shown, surfaces, culls);
@@ -149,14 +149,14 @@ TEST_SWEEP(PictureLightsTold, ofLightsOfEveryTypeOnlyOpaqueSurfacesTellTheirVisi
     }
 }
 
-TEST_F(PictureLightsTold, nothingIsToldWhereNoListSaysIt) {
-    EXPECT_FALSE(PictureLights::areTold(request(Technique::DeferredVolumes, frame::DebugView::Final)))
+TEST_F(CountedPictureLights, nothingIsReportedWhereNoListSaysIt) {
+    EXPECT_FALSE(PictureLights::areCounted(request(Technique::DeferredVolumes, frame::DebugView::Final)))
         << "volumes choose their pixels as they are rasterised";
-    EXPECT_FALSE(PictureLights::areTold(request(Technique::ForwardPlus, frame::DebugView::Normal)));
-    EXPECT_FALSE(PictureLights::areTold(request(Technique::ForwardPlus, frame::DebugView::Ids)));
+    EXPECT_FALSE(PictureLights::areCounted(request(Technique::ForwardPlus, frame::DebugView::Normal)));
+    EXPECT_FALSE(PictureLights::areCounted(request(Technique::ForwardPlus, frame::DebugView::Ids)));
     engine::ViewRequest multisampled = request(Technique::ForwardPlus, frame::DebugView::Final);
     multisampled.settings.samples = 4;
-    EXPECT_FALSE(PictureLights::areTold(multisampled)) << "a pixel may show several surfaces";
+    EXPECT_FALSE(PictureLights::areCounted(multisampled)) << "a pixel may show several surfaces";
 }
 
 } // namespace

@@ -97,10 +97,10 @@ protected:
         for (scenes::Light& light : scene.lights) light.radiusMetres = light.angularRadiusRadians = 0.0f;
         // Texture-space diffusion approximates otherwise than the reference; Diffusion tests it.
         frame::FrameSettings settings = ofSize(bars.width, bars.height);
-        const auto spreads = [](const scenes::Material& material) {
+        const auto diffuses = [](const scenes::Material& material) {
             return material.subsurface.method == scenes::SubsurfaceMethod::TextureSpaceDiffusion;
         };
-        if (std::any_of(scene.materials.begin(), scene.materials.end(), spreads))
+        if (std::any_of(scene.materials.begin(), scene.materials.end(), diffuses))
             settings.subsurface = scenes::SubsurfaceMethod::DepthMap;
         const validation::ErrorFigures figures = expectAgreement(bars.scene, scene, settings, true);
         if (!context().capabilities().isSoftware) return;

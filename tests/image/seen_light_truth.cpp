@@ -256,7 +256,7 @@ TEST_F(SeenLightTruth, areThoseOfTheReferenceFromNearAndFar) {
         engine::Renderer renderer(context(), scene);
         const engine::RenderedFrame shown = renderer.render(Technique::ClusteredDeferred, settings);
         const validation::ReferencePicture truth = validation::referencePicture(
-            scene, settings, [] {}, validation::Leeway::Definition);
+            scene, settings, [] {}, validation::Alternatives::Definition);
         const std::vector<std::uint8_t> excluded = validation::shownTriangles(renderer, settings, truth.ids).excluded;
         const Picture picture = engine::toPicture(shown), nearest = truth.nearestTo(picture);
         std::size_t wrong = 0, undecided = 0, lights = 0, compared = 0;

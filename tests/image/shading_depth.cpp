@@ -29,8 +29,8 @@ struct Pixel {
 class ShadingDepth : public ImageTest {
 protected:
     frame::FrameSettings settings(int samples) {
-        frame::FrameSettings asked = withSamples(ofSize(kWidth, kHeight), samples);
-        return engine::settingsOn(context().capabilities(), asked);
+        frame::FrameSettings requested = withSamples(ofSize(kWidth, kHeight), samples);
+        return engine::settingsOn(context().capabilities(), requested);
     }
 
     /// Pixels in GL's order, rows from the bottom.

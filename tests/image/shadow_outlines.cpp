@@ -20,7 +20,7 @@ constexpr int kOutlinePixels = 64;
 /// A shadow filter without penumbrae, and how far it may displace an outline on the plate.
 struct OutlineWay {
     ShadowFilter filter;
-    double leewayMetres;
+    double toleranceMetres;
 };
 /// A face spans at most 3.4 m: the scene's bounding sphere has a radius of 1.44 m, which is 1.68 m in the size steps of
 /// cascades. So one of 2048 texels is 1.7 mm wide, and on the plate, which all lights meet obliquely, at most 3 mm.
@@ -91,10 +91,10 @@ protected:
                 const bool isDark = picture.radiance[4 * std::size_t(y * kOutlinePixels + x)] == 0.0f;
                 const glm::dvec2 place = onPlate(light, pointWS);
                 const bool hidden = isHidden(place);
-                const double leeway = way.leewayMetres / kHalfSide;
+                const double tolerance = way.toleranceMetres / kHalfSide;
                 bool isUndecided = false;
                 for (const glm::dvec2& step : {glm::dvec2(1.0), glm::dvec2(1.0, -1.0)})
-                    for (const double side : {-leeway, leeway})
+                    for (const double side : {-tolerance, tolerance})
                         isUndecided = isUndecided || isHidden(place + side * step) != hidden;
                 found.dark += isDark;
                 found.undecided += isUndecided;
@@ -186,11 +186,11 @@ TEST_F(ShadowOutline, isThereOnlyWhereLightMaterialAndNodeCastOne) {
     expectNone(plateUnder(lamp()), settings);
     settings.shadows = {ShadowRequest::Kind::First, 0};
     expectNone(plateUnder(lamp()), settings);
-    const scenes::Scene unasked = with([](scenes::Scene& scene) { scene.lights[0].castsShadow = false; });
+    const scenes::Scene unshadowed = with([](scenes::Scene& scene) { scene.lights[0].castsShadow = false; });
     settings.shadows = {ShadowRequest::Kind::First, 1};
-    expectShadow(unasked, settings);
+    expectShadow(unshadowed, settings);
     settings.shadows = kAllLightsCast;
-    expectShadow(unasked, settings);
+    expectShadow(unshadowed, settings);
 }
 
 TEST_F(ShadowOutline, isPlannedOnlyWhereThereIsOne) {

@@ -186,14 +186,14 @@ void ShadowTerminators::expectLifted(double lean, int rows, int samples, double 
                 const double behindEdge = kPlateEdge + (kPlateMetres - lift) / kSlope - placeWS.z;
                 const double behindStraight = kPlateEdge + kPlateMetres / kSlope - placeWS.z;
                 // Heights are stored in steps of a twelfth at most; rounding loses up to half a step.
-                double leeway = 1e-3 + 0.045 * lift / kSlope;
+                double tolerance = 1e-3 + 0.045 * lift / kSlope;
                 // A fragment is shaded up to 3/8 of a pixel from its pixel's centre.
                 if (samples > 1)
-                    leeway += 0.375 * (2.0 / 128.0) * (1.0 + 2.0 * std::abs(std::sin(lean)) / kSlope / toEye.y);
+                    tolerance += 0.375 * (2.0 / 128.0) * (1.0 + 2.0 * std::abs(std::sin(lean)) / kSlope / toEye.y);
                 const float shown = seen[4 * std::size_t(128 * y + x)];
                 const bool isDark = shown == 0.0f;
                 dark += isDark;
-                wrong += std::abs(behindEdge) > leeway && shown != (behindEdge > 0.0 ? 0.0f : 1.0f);
+                wrong += std::abs(behindEdge) > tolerance && shown != (behindEdge > 0.0 ? 0.0f : 1.0f);
                 straightIsWrong += isDark != (behindStraight > 0.0);
             }
         fmt::print("{}: {} pixels dark, {} wrong, {} by the triangles themselves\n", int(terminator), dark, wrong,

@@ -51,7 +51,7 @@ protected:
 
 TEST_F(ShadowTimesSlow, mapsTakeAtMostHalfAsLongAgainAsDepthAlone) {
     const std::pair<const char*, scenes::ShadowRequest> tries[] = {
-        {"lattice", {scenes::ShadowRequest::Kind::First, 16}}, {"hall", {scenes::ShadowRequest::Kind::Asked}}};
+        {"lattice", {scenes::ShadowRequest::Kind::First, 16}}, {"hall", {scenes::ShadowRequest::Kind::Scene}}};
     for (const auto& [name, shadows] : tries) {
         scenes::Scene scene = shadowed(name, {});
         frame::FrameSettings settings = ofSize(1280, 720);
@@ -165,14 +165,14 @@ scenes::Scene floorBelow(int lamps) {
 /// by lamps, less that without shadows.
 TEST_F(ShadowTimesSlow, eachWayIsTimedByPairsAndAgainstTheFloor) {
     frame::FrameSettings settings = ofSize(1280, 720);
-    settings.shadows = {scenes::ShadowRequest::Kind::Asked};
+    settings.shadows = {scenes::ShadowRequest::Kind::Scene};
     settings.shadowMaps.resolutionTexels = 256;
     constexpr int kFewLamps = 8, kManyLamps = 24;
     WaysToTime few(context(), floorBelow(kFewLamps), settings), many(context(), floorBelow(kManyLamps), settings);
     settings.shadowMaps.resolutionTexels.reset();
     settings.shadows = {scenes::ShadowRequest::Kind::First, 16};
     WaysToTime lattice(context(), scenes::loadScene("lattice"), settings);
-    settings.shadows = {scenes::ShadowRequest::Kind::Asked};
+    settings.shadows = {scenes::ShadowRequest::Kind::Scene};
     WaysToTime hall(context(), scenes::loadScene("hall"), settings);
     std::vector<validation::TimedFrame> frames;
     for (WaysToTime* ways : {&few, &many, &lattice, &hall}) ways->addFrames(frames);

@@ -101,7 +101,7 @@ TEST_F(ShadowViews, areOfTheFirstLightThatCastsShadows) {
     scenes::Scene scene = pointsAndSun();
     const int sun = int(scene.lights.size()) - 1;
     scene.lights.back().castsShadow = true;
-    settings.shadows = {scenes::ShadowRequest::Kind::Asked};
+    settings.shadows = {scenes::ShadowRequest::Kind::Scene};
     engine::Renderer renderer(context(), scene);
     for (const DebugView view : {DebugView::Cascades, DebugView::Shadow}) {
         settings.soloLight.reset();
@@ -276,7 +276,7 @@ TEST_F(ShadowViews, theAtlasShowsTheDepthsThatItStores) {
     EXPECT_EQ(pixel(shown(renderer, DebugView::ShadowAtlas), 0, 3), glm::vec4(0.0f));
 }
 
-TEST_F(ShadowViews, andSettingsOfShadowsChangeAPictureExactlyWithTheFiltersThatHeedThem) {
+TEST_F(ShadowViews, andSettingsOfShadowsChangeAPictureExactlyWithTheFiltersThatUseThem) {
     constexpr std::pair<const char*, const char*> kOthers[] = {{"shadowSamples", "3"},
                                                                {"shadowWidth", "7"},
                                                                {"shadowResolution", "64"},
@@ -299,7 +299,7 @@ TEST_F(ShadowViews, andSettingsOfShadowsChangeAPictureExactlyWithTheFiltersThatH
     }
 }
 
-TEST_F(ShadowViews, aFrameTellsWhatItsLightsGotAndWhichFacesItDrew) {
+TEST_F(ShadowViews, aFrameReportsWhatItsLightsGotAndWhichFacesItDrew) {
     scenes::Scene scene = pointsAndSun();
     scene.lights[1].castsShadow = true;
     engine::Renderer renderer(context(), scene);
@@ -316,7 +316,7 @@ TEST_F(ShadowViews, aFrameTellsWhatItsLightsGotAndWhichFacesItDrew) {
     scene.lights[0].positionWS.x += 0.01;
     shown(renderer, DebugView::Final);
     EXPECT_EQ(renderer.shadows().drawnFaces, 6u) << "one light has moved";
-    settings.shadows = {scenes::ShadowRequest::Kind::Asked};
+    settings.shadows = {scenes::ShadowRequest::Kind::Scene};
     settings.shadowFilter = ShadowFilter::Traced;
     shown(renderer, DebugView::Final);
     shadows = renderer.shadows();

@@ -182,8 +182,8 @@ TEST_F(SoftShadows, ofSunsTooWideForPcssAreWarnedOf) {
             settings.shadowFilter = filter;
             renderer.render(Technique::Deferred, settings);
             const std::string& said = renderer.shadows().missing;
-            const bool isTold = filter == frame::ShadowFilter::Pcss && degrees > 30.0;
-            EXPECT_EQ(said.find("give --shadow-filter traced") != std::string::npos, isTold) << degrees << said;
+            const bool isReported = filter == frame::ShadowFilter::Pcss && degrees > 30.0;
+            EXPECT_EQ(said.find("give --shadow-filter traced") != std::string::npos, isReported) << degrees << said;
         }
 }
 
@@ -216,7 +216,7 @@ TEST_SWEEP(SoftShadows, ofTheReferenceHaveTheirClosedForms) {
             settings.sizePixels = {96, 54};
             settings.camera = scene.cameras[0];
             settings.soloLight = int(light);
-            settings.leeway = false;
+            settings.findsAlternatives = false;
             settings.penumbraRings = rings;
             const reference::Rendered shadowed = reference::render(scene, settings);
             settings.shadows = {ShadowRequest::Kind::None};

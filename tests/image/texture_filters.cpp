@@ -184,7 +184,7 @@ constexpr Fault kFaults[] = {
     {"half a level too fine", TextureFilter::Hardware, "lib/material/texture_filter.glsl", "texture(image, uv)",
      "texture(image, uv, -0.5)"},
     {"nearest filters blend", TextureFilter::Exact, "lib/material/material_values.glsl",
-     "slotTakesNearest(image, slot, fragment, modes)", "false"},
+     "slotUsesNearest(image, slot, fragment, modes)", "false"},
     {"the magnifying filter everywhere", TextureFilter::Exact, "lib/material/texture_filter.glsl",
      "magnified ? TEXTURE_MODE_MAGNIFIES_NEAREST : TEXTURE_MODE_MINIFIES_NEAREST", "TEXTURE_MODE_MAGNIFIES_NEAREST"},
     {"magnified up to level 0 only", TextureFilter::Exact, "lib/material/texture_filter.glsl", "!= 0 ? 2.0 : 1.0",

@@ -29,7 +29,7 @@ SIZE = {"size": (96, 54)}
 
 
 def programSays(*words):
-    """What the program prints; exit code 3 tells of a missed tolerance, which is no matter here."""
+    """What the program prints; exit code 3 reports a missed tolerance, which is no matter here."""
     result = subprocess.run([PROGRAM, *words], capture_output=True, text=True, timeout=300)
     assert result.returncode in (0, 3), result.stderr
     return result.stdout
@@ -299,7 +299,7 @@ class Errors(Folder):
         result = subprocess.run([sys.executable, "-c", says], env=noDisplay, capture_output=True, text=True, timeout=120)
         self.assertEqual((result.returncode, result.stdout), (0, "drawn\n"), result.stderr)
 
-    def testAForkedProcessIsToldWhatToDo(self):
+    def testAForkedProcessRaisesAnErrorWithTheRemedy(self):
         tessera.render("spheres", **SIZE)
         says = textwrap.dedent("""
             import os, sys, tessera
@@ -317,15 +317,15 @@ class Errors(Folder):
 
 
 class WhileItWorks(unittest.TestCase):
-    def testProgressIsToldToItsEndOnTheCallersThread(self):
-        told = []
+    def testProgressIsReportedToItsEndOnTheCallersThread(self):
+        reports = []
         tessera.render("spheres", technique="reference", size=(64, 40),
-                       progress=lambda done, expected: told.append((done, expected, threading.get_ident())))
-        self.assertEqual(told[-1], (40, 40, threading.get_ident()))
-        self.assertEqual(told, sorted(told))
-        told.clear()
-        tessera.compare("spheres", techniques="deferred", progress=lambda done, expected: told.append((done, expected)), **SIZE)
-        self.assertEqual(*told[-1])
+                       progress=lambda done, expected: reports.append((done, expected, threading.get_ident())))
+        self.assertEqual(reports[-1], (40, 40, threading.get_ident()))
+        self.assertEqual(reports, sorted(reports))
+        reports.clear()
+        tessera.compare("spheres", techniques="deferred", progress=lambda done, expected: reports.append((done, expected)), **SIZE)
+        self.assertEqual(*reports[-1])
 
     def testWhatProgressRaisesEndsTheWork(self):
         def refuse(done, expected):

@@ -15,8 +15,8 @@ using engine::Technique;
 /// The deferred technique that supports a method.
 Technique deferredTechnique(Method method) {
     for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-        const bool takes = std::ranges::find(technique.methods, method) != technique.methods.end();
-        if (technique.usesGBuffer() && takes) return technique.technique;
+        const bool supports = std::ranges::find(technique.methods, method) != technique.methods.end();
+        if (technique.usesGBuffer() && supports) return technique.technique;
     }
     assert(method == Method::None);
     return Technique::Deferred;
@@ -42,16 +42,16 @@ std::string rowText(const LightTableRow& row) {
 std::vector<LightTableRow> judgeCulling(engine::Renderer& renderer, const frame::FrameSettings& settings,
                                         std::span<const int> tileSides) {
     std::vector<LightTableRow> rows;
-    frame::FrameSettings asked = settings;
+    frame::FrameSettings requested = settings;
     for (const culling::MethodInfo& info : culling::methodTable()) {
         const bool hasTiles = info.method != Method::None;
         const Technique technique = deferredTechnique(info.method);
-        asked.culling = {};
-        asked.culling.normals = settings.culling.normals;
-        if (hasTiles) asked.culling.method = info.method;
+        requested.culling = {};
+        requested.culling.normals = settings.culling.normals;
+        if (hasTiles) requested.culling.method = info.method;
         for (const int tilePixels : hasTiles ? tileSides : std::span<const int>(&tileSides.front(), 1)) {
-            if (hasTiles) asked.culling.tilePixels = tilePixels;
-            rows.push_back({info.method, hasTiles ? tilePixels : 0, judgeLights(renderer, technique, asked)});
+            if (hasTiles) requested.culling.tilePixels = tilePixels;
+            rows.push_back({info.method, hasTiles ? tilePixels : 0, judgeLights(renderer, technique, requested)});
         }
     }
     return rows;

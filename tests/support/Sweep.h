@@ -39,7 +39,7 @@ inline std::vector<engine::Technique> techniquesInTurn(std::size_t turn, int sam
         if (info.technique != Technique::Forward && std::ranges::find(techniques, info.technique) == techniques.end())
             techniques.push_back(info.technique);
     std::erase_if(techniques,
-                  [&](Technique technique) { return !engine::takesSamples(engine::infoOf(technique), samples); });
+                  [&](Technique technique) { return !engine::supportsSamples(engine::infoOf(technique), samples); });
     if (!isWholeSweep()) techniques = {techniques[turn % techniques.size()]};
     return techniques;
 }

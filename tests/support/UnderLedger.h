@@ -10,17 +10,17 @@ namespace tessera::scenes {
 
 inline constexpr std::uint64_t kMiB = std::uint64_t{1} << 20;
 
-inline ImportWishes strictly() {
-    ImportWishes wishes;
-    wishes.isStrict = true;
-    return wishes;
+inline ImportOptions strictly() {
+    ImportOptions importOptions;
+    importOptions.isStrict = true;
+    return importOptions;
 }
 
 /// Calls `read` on `input` with a separate ledger, for tests that read one file.
 template <typename Read, typename Input>
 auto underLedger(const Read& read, const Input& input, std::optional<std::uint64_t> limitBytes = {},
-                 ImportWishes wishes = {}) {
-    LoadLedger ledger(limitBytes, std::move(wishes));
+                 ImportOptions importOptions = {}) {
+    LoadLedger ledger(limitBytes, std::move(importOptions));
     return read(input, ledger);
 }
 

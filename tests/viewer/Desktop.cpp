@@ -55,8 +55,8 @@ Desktop::Desktop(glm::ivec2 sizePixels) : sizePixels_(sizePixels) {
         manager_ = std::make_unique<Process>(std::vector<std::string>{"openbox", "--config-file", settings},
                                              ProcessOptions{folder_.path(), {{"DISPLAY", display_}}, kLongSeconds});
         for (int i = 0; i < 200; ++i) {
-            const ProcessResult asked = runProcess({"xdotool", "get_desktop"}, {{}, {{"DISPLAY", display_}}, 10.0});
-            if (asked.exitCode == 0 && asked.err.empty()) return;
+            const ProcessResult answer = runProcess({"xdotool", "get_desktop"}, {{}, {{"DISPLAY", display_}}, 10.0});
+            if (answer.exitCode == 0 && answer.err.empty()) return;
             std::this_thread::sleep_for(std::chrono::milliseconds(50));
         }
     }

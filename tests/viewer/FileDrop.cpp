@@ -28,10 +28,10 @@ public:
         constexpr std::uint32_t kVersion = 5u << 24u;
         const auto place = std::uint32_t(pixel.x) << 16u | std::uint32_t(pixel.y);
         xcb_set_selection_owner(connection_.get(), own_, atom("XdndSelection"), XCB_CURRENT_TIME);
-        tell("XdndEnter", {own_, kVersion, atom("text/uri-list"), 0, 0});
-        tell("XdndPosition", {own_, 0, place, XCB_CURRENT_TIME, atom("XdndActionCopy")});
+        send("XdndEnter", {own_, kVersion, atom("text/uri-list"), 0, 0});
+        send("XdndPosition", {own_, 0, place, XCB_CURRENT_TIME, atom("XdndActionCopy")});
         awaitYes("XdndStatus", uris);
-        tell("XdndDrop", {own_, 0, XCB_CURRENT_TIME, 0, 0});
+        send("XdndDrop", {own_, 0, XCB_CURRENT_TIME, 0, 0});
         awaitYes("XdndFinished", uris);
     }
 
@@ -39,7 +39,7 @@ private:
     xcb_atom_t atom(const std::string& name) {
         const auto cookie = xcb_intern_atom(connection_.get(), 0, std::uint16_t(name.size()), name.c_str());
         const OwnedReply<xcb_intern_atom_reply_t> reply(xcb_intern_atom_reply(connection_.get(), cookie, nullptr));
-        if (!reply) throw std::runtime_error("the display knows no atom " + name);
+        if (!reply) throw std::runtime_error("the display has no atom " + name);
         return reply->atom;
     }
 
@@ -52,7 +52,7 @@ private:
         xcb_flush(connection_.get());
     }
 
-    void tell(const std::string& message, const std::array<std::uint32_t, 5>& values) {
+    void send(const std::string& message, const std::array<std::uint32_t, 5>& values) {
         xcb_client_message_event_t event{};
         event.response_type = XCB_CLIENT_MESSAGE;
         event.format = 32;
@@ -76,9 +76,9 @@ private:
             if (kind == XCB_SELECTION_REQUEST)
                 handOver(reinterpret_cast<const xcb_selection_request_event_t&>(*event), uris);
             if (kind != XCB_CLIENT_MESSAGE) continue;
-            const auto& told = reinterpret_cast<const xcb_client_message_event_t&>(*event);
-            if (told.type != awaited) continue;
-            if (told.data.data32[1] != 0) return; // GLFW finishes with the number of bytes it accepted instead of 1
+            const auto& answer = reinterpret_cast<const xcb_client_message_event_t&>(*event);
+            if (answer.type != awaited) continue;
+            if (answer.data.data32[1] != 0) return; // GLFW finishes with the number of bytes it accepted instead of 1
             throw std::runtime_error("the window does not take what is dropped: " + message);
         }
         throw std::runtime_error("the window did not answer what is dropped within 30 s: no " + message);

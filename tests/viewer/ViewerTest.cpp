@@ -34,10 +34,10 @@ void chooseEntry(const DrivenViewer& viewer, glm::ivec2 box, int pixels) {
 } // namespace
 
 glm::ivec2 ViewerTest::screenPixels() {
-    const char* const wish = std::getenv("TESSERA_TEST_SCREEN");
+    const char* const requested = std::getenv("TESSERA_TEST_SCREEN");
     glm::ivec2 size(1280, 800);
-    if (wish != nullptr && std::sscanf(wish, "%dx%d", &size.x, &size.y) != 2)
-        throw std::runtime_error(fmt::format("TESSERA_TEST_SCREEN is '{}'; give WIDTHxHEIGHT", wish));
+    if (requested != nullptr && std::sscanf(requested, "%dx%d", &size.x, &size.y) != 2)
+        throw std::runtime_error(fmt::format("TESSERA_TEST_SCREEN is '{}'; give WIDTHxHEIGHT", requested));
     return size;
 }
 

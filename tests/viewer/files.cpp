@@ -9,14 +9,16 @@ namespace {
 class ViewerFiles : public ViewerTest {
 protected:
     /// Opens a dialog by its keys, and waits until it accepts input.
-    static void ask(const DrivenViewer& viewer, const std::string& keys, const std::string& said) {
+    static void openDialog(const DrivenViewer& viewer, const std::string& keys, const std::string& said) {
         const std::size_t mark = viewer.mark();
         viewer.key(keys);
         viewer.waitFor(said, mark);
         viewer.pause(0.7);
     }
-    static void askWhatToOpen(const DrivenViewer& viewer) { ask(viewer, "ctrl+o", "asks what to open"); }
-    static void askWhereToSave(const DrivenViewer& viewer) { ask(viewer, "ctrl+shift+s", "asks where to save"); }
+    static void showOpenDialog(const DrivenViewer& viewer) { openDialog(viewer, "ctrl+o", "shows the open dialog"); }
+    static void showSaveDialog(const DrivenViewer& viewer) {
+        openDialog(viewer, "ctrl+shift+s", "shows the save dialog");
+    }
     static void enter(const DrivenViewer& viewer, const std::string& text) {
         viewer.type(text);
         viewer.pause(0.3);
@@ -37,7 +39,7 @@ TEST_F(ViewerFiles, aSceneInAFolderIsOpenedByTypedLettersArrowsAndEnter) {
     folder_.write("things/unknown.txt", "");
     DrivenViewer viewer = open({"room"});
     const Shot room = pictureIn(viewer, viewer.waitForWhole(0));
-    askWhatToOpen(viewer);
+    showOpenDialog(viewer);
     EXPECT_GT(differingShare(pictureIn(viewer, room.sizePixels), room), 0.3) << "the dialog is not there";
     enter(viewer, "thi"); // enters the folder
     std::size_t mark = viewer.mark();
@@ -47,7 +49,7 @@ TEST_F(ViewerFiles, aSceneInAFolderIsOpenedByTypedLettersArrowsAndEnter) {
     const Shot lattice = opened(viewer, mark, "things/two.json");
     EXPECT_TRUE(lattice == rendered("lattice", lattice.sizePixels));
     // The next dialog starts in this folder; Tab completes names.
-    askWhatToOpen(viewer);
+    showOpenDialog(viewer);
     mark = viewer.mark();
     viewer.type("o");
     viewer.key("Tab");
@@ -62,7 +64,7 @@ TEST_F(ViewerFiles, aSceneInAFolderIsOpenedByTypedLettersArrowsAndEnter) {
 TEST_F(ViewerFiles, escapeLeavesTheDialogAndNothingIsDoneByLettersTypedIntoIt) {
     DrivenViewer viewer = open({"room"});
     const Shot room = pictureIn(viewer, viewer.waitForWhole(0));
-    askWhatToOpen(viewer);
+    showOpenDialog(viewer);
     enter(viewer, "t7m"); // keys that mean something elsewhere, and match no file
     viewer.key("Escape");
     viewer.pause(0.7);
@@ -77,7 +79,7 @@ TEST_F(ViewerFiles, escapeLeavesTheDialogAndNothingIsDoneByLettersTypedIntoIt) {
 TEST_F(ViewerFiles, aBuiltInSceneAndAnEnvironmentAreOpenedByName) {
     DrivenViewer viewer = open({"room"});
     viewer.waitForWhole(0);
-    askWhatToOpen(viewer);
+    showOpenDialog(viewer);
     std::size_t mark = viewer.mark();
     enter(viewer, "spheres");
     const Shot spheres = opened(viewer, mark, "spheres");
@@ -86,14 +88,14 @@ TEST_F(ViewerFiles, aBuiltInSceneAndAnEnvironmentAreOpenedByName) {
     const std::string radiance = savedFile(viewer.waitFor("saved ", mark));
     viewer.key("Escape");
     viewer.pause(0.3);
-    askWhatToOpen(viewer);
+    showOpenDialog(viewer);
     mark = viewer.mark();
     enter(viewer, radiance.substr(0, radiance.size() - 2)); // the dialog completes the name
     viewer.waitFor("environment " + (folder_.path() / radiance).string(), mark);
     EXPECT_GT(differingShare(pictureIn(viewer, viewer.waitForWhole(mark)), spheres, 4), 0.1);
 }
 
-TEST_F(ViewerFiles, whatIsDroppedOnTheWindowOpensAndOfSeveralTheFirstThatCanIsTold) {
+TEST_F(ViewerFiles, whatIsDroppedOnTheWindowOpensAndOfSeveralTheFirstThatCanIsReported) {
     const auto one = folder_.write("one.json", R"({"tessera": 1, "base": {"file": "builtin:spheres"}})");
     const auto two = folder_.write("two.json", R"({"tessera": 1, "base": {"file": "builtin:lattice"}})");
     const auto unknown = folder_.write("unknown.txt", "");
@@ -113,14 +115,14 @@ TEST_F(ViewerFiles, whatIsDroppedOnTheWindowOpensAndOfSeveralTheFirstThatCanIsTo
     EXPECT_TRUE(pictureIn(viewer, size) == rendered("spheres", size));
 }
 
-TEST_F(ViewerFiles, openingAsksAboutEditsThatAreNotSaved) {
+TEST_F(ViewerFiles, openingShowsADialogAboutEditsThatAreNotSaved) {
     folder_.write("other.json", R"({"tessera": 1, "base": {"file": "builtin:lattice"}})");
     DrivenViewer viewer = open({"spheres"});
     const Shot shown = pictureIn(viewer, viewer.waitForWhole(0));
     const std::size_t edited = viewer.mark();
     addLight(viewer);
     viewer.waitForWhole(edited);
-    askWhatToOpen(viewer);
+    showOpenDialog(viewer);
     std::size_t mark = viewer.mark();
     enter(viewer, "other.json");
     viewer.waitFor("edits are not saved", mark);
@@ -137,14 +139,14 @@ TEST_F(ViewerFiles, aSceneAndAPictureAreSavedUnderNamesOfTheUsersChoice) {
     folder_.write("kept/taken.png", "not a picture");
     DrivenViewer viewer = open({"spheres"});
     const Shot shown = pictureIn(viewer, viewer.waitForWhole(0));
-    askWhereToSave(viewer);
+    showSaveDialog(viewer);
     std::size_t mark = viewer.mark();
     enter(viewer, "kept/mine.json"); // replaces the proposed name
     viewer.waitFor("saved " + (folder_.path() / "kept" / "mine.json").string(), mark);
     EXPECT_TRUE(rendered("kept/mine.json", shown.sizePixels) == shown);
     viewer.key("Escape");
     viewer.pause(0.3);
-    askWhereToSave(viewer);
+    showSaveDialog(viewer);
     mark = viewer.mark();
     enter(viewer, "kept/taken.png"); // an existing file
     viewer.key("Return");
@@ -156,16 +158,16 @@ TEST_F(ViewerFiles, aSceneAndAPictureAreSavedUnderNamesOfTheUsersChoice) {
     viewer.key("Escape");
 }
 
-TEST_F(ViewerFiles, whereAFolderCannotBeWrittenAnotherPlaceIsAskedFor) {
+TEST_F(ViewerFiles, whereAFolderCannotBeWrittenADialogForAnotherPlaceIsShown) {
     const TempFolder home;
     DrivenViewer viewer = open({"spheres"}, {{"HOME", home.path().string()}});
     const Shot shown = pictureIn(viewer, viewer.waitForWhole(0));
-    askWhereToSave(viewer);
+    showSaveDialog(viewer);
     std::size_t mark = viewer.mark();
     enter(viewer, "/proc/mine.png"); // where not even root can write
     const std::string said = viewer.waitFor("error ", mark);
     EXPECT_NE(said.find("/proc/mine.png"), std::string::npos) << said;
-    viewer.waitFor("asks where to save", mark);
+    viewer.waitFor("shows the save dialog", mark);
     viewer.pause(0.7);
     mark = viewer.mark();
     viewer.key("Return"); // accepts the proposed folder and name

@@ -85,8 +85,8 @@ TEST_F(ViewerHallSlow, aWalkThroughAllOfItsLightsEditsComparesInspectsAndSaves) 
     mark = viewer.mark();
     viewer.key("i");
     const std::string said = viewer.waitFor("inspected ", mark);
-    for (const char* told : {"linear ", "; material ", "; depth ", "; face normal ", " reach"})
-        EXPECT_NE(said.find(told), std::string::npos) << told << " in " << said;
+    for (const char* word : {"linear ", "; material ", "; depth ", "; face normal ", " reach"})
+        EXPECT_NE(said.find(word), std::string::npos) << word << " in " << said;
     viewer.pause(1.0);
     EXPECT_FALSE(pictureIn(viewer, size) == edited) << "there is no loupe";
     viewer.key("i");

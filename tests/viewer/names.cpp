@@ -29,7 +29,7 @@ TEST_F(ViewerNames, ofChineseJapaneseAndKoreanHaveTheirLettersInTheListAndInFile
     viewer.waitForWhole(0);
     std::size_t mark = viewer.mark();
     viewer.key("ctrl+o");
-    viewer.waitFor("asks what to open", mark);
+    viewer.waitFor("shows the open dialog", mark);
     viewer.pause(0.7);
     viewer.type("thi"); // enters the folder
     viewer.pause(0.3);

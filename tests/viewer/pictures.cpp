@@ -19,7 +19,7 @@ protected:
     /// Compares the hall with 256 lights in a whole sweep, else the spheres, which are drawn in a tenth of the time.
     void expectThePictureOfRender();
     /// With 256 diffusion texels in a whole sweep, else 64.
-    void expectSpreadLightOfACameraThatMoves();
+    void expectDiffusedLightOfACameraThatMoves();
     /// The inspector's text for the pixel under the pointer, once nothing changes. Inspecting starts and ends here.
     static std::string saidOfPixel(const DrivenViewer& viewer) {
         const std::size_t mark = viewer.mark();
@@ -92,7 +92,7 @@ TEST_F(ViewerPicturesSlow, theWindowShowsThePictureOfRenderBitForBit) {
     expectThePictureOfRender();
 }
 
-TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
+TEST_F(ViewerPictures, theInspectorReportsTheValuesOfThePixelAndShowsItLarge) {
     DrivenViewer viewer = open(kSpheres);
     const glm::ivec2 size = viewer.waitForWhole(0);
     const Shot alone = pictureIn(viewer, size);
@@ -138,7 +138,7 @@ TEST_F(ViewerPictures, theInspectorTellsTheValuesOfThePixelAndShowsItLarge) {
     EXPECT_LT(glm::distance(ofPicture, ofRay), 1e-3) << normals;
 }
 
-TEST_F(ViewerPictures, theInspectorTellsHowManyLightsEachSideVisits) {
+TEST_F(ViewerPictures, theInspectorReportsHowManyLightsEachSideVisits) {
     DrivenViewer viewer =
         open({"lattice", "--fov", "45", "--lights", "64", "--technique", "clustered_forward", "--view", "lights"});
     const glm::ivec2 size = viewer.waitForWhole(0);
@@ -200,7 +200,8 @@ TEST_F(ViewerPictures, theInspectorTellsHowManyLightsEachSideVisits) {
     expectSaid(said, fmt::format("; {}; Right; linear ", visited));
     expectSaid(said, fmt::format("; visits {} lights; difference 0 0 0; material ", all));
     EXPECT_TRUE(said.ends_with(" it")) << said;
-    EXPECT_EQ(said.find(" it"), said.size() - 3) << "the lights that reach the place are told more than once: " << said;
+    EXPECT_EQ(said.find(" it"), said.size() - 3)
+        << "the lights that reach the place are listed more than once: " << said;
 }
 
 TEST_F(ViewerPictures, aClickOnTheLargestErrorOfAComparisonInspectsItsPixel) {
@@ -271,15 +272,15 @@ TEST_F(ViewerPictures, theCommandToPasteRendersTheSavedPictureToTheLastBit) {
     EXPECT_TRUE(pictureIn(viewer, file.sizePixels) == file) << "the screenshot is not what the window shows";
 }
 
-void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
+void ViewerPictures::expectDiffusedLightOfACameraThatMoves() {
     // In the bust's marble light diffuses far enough for coarse texels; for the scan a note would cover the image.
     const tessera::test::AssetsFolder none(nullptr);
     const std::string scene = isWholeSweep() ? "head_skin" : "head_marble", texels = isWholeSweep() ? "256" : "64";
     DrivenViewer viewer = open({scene, "--diffusion-texels", texels});
     const glm::ivec2 size = viewer.waitForWhole(0);
     EXPECT_TRUE(pictureIn(viewer, size) == rendered(asOpened(scene, size) + " --diffusion-texels " + texels, size));
-    viewer.waitFor("spread light in view", 0);
-    viewer.waitFor("spread light everywhere", 0);
+    viewer.waitFor("diffused light in view", 0);
+    viewer.waitFor("diffused light everywhere", 0);
     // The image at full resolution does not wait for diffusion.
     const std::vector<std::string> opening = viewer.lines();
     const auto at = [&](const auto& is) { return std::ranges::find_if(opening, is) - opening.begin(); };
@@ -287,13 +288,13 @@ void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
                   return line.starts_with("drawn ") && line.find(" scale 1 ") != line.npos &&
                          line.ends_with(" lacks light");
               }),
-              at([](const std::string& line) { return line == "spread light in view"; }));
+              at([](const std::string& line) { return line == "diffused light in view"; }));
     // Viewing another side needs no further diffusion.
     std::size_t mark = viewer.mark();
     viewer.drag(middlePixel(), middlePixel() + glm::ivec2(300, 20));
     const Shot shown = pictureIn(viewer, viewer.waitForWhole(mark));
     const std::vector<std::string> lines = viewer.lines();
-    for (std::size_t i = mark; i < lines.size(); ++i) EXPECT_FALSE(lines[i].starts_with("spread light")) << lines[i];
+    for (std::size_t i = mark; i < lines.size(); ++i) EXPECT_FALSE(lines[i].starts_with("diffused light")) << lines[i];
     mark = viewer.mark();
     viewer.key("ctrl+c");
     std::string command = viewer.waitFor("command ", mark);
@@ -301,14 +302,14 @@ void ViewerPictures::expectSpreadLightOfACameraThatMoves() {
     shell(command.substr(0, command.rfind(" -o ")) + " -o pasted.png");
     EXPECT_TRUE(readShot(folder_.path() / "pasted.png") == shown) << command;
 }
-TEST_F(ViewerPictures, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAllOfIt) {
-    expectSpreadLightOfACameraThatMoves();
+TEST_F(ViewerPictures, aCameraThatMovesUsesTheDiffusedLightThatIsThereAndAtRestAllOfIt) {
+    expectDiffusedLightOfACameraThatMoves();
 }
-TEST_F(ViewerPicturesSlow, aCameraThatMovesTakesTheSpreadLightThatIsThereAndAtRestAllOfIt) {
-    expectSpreadLightOfACameraThatMoves();
+TEST_F(ViewerPicturesSlow, aCameraThatMovesUsesTheDiffusedLightThatIsThereAndAtRestAllOfIt) {
+    expectDiffusedLightOfACameraThatMoves();
 }
 
-TEST_F(ViewerPictures, ctrlAndTheWheelMagnifyPixelsAndKeysPinAndCopyWhatIsToldOfThem) {
+TEST_F(ViewerPictures, ctrlAndTheWheelMagnifyPixelsAndKeysPinAndCopyTheirValues) {
     DrivenViewer viewer = open(kSpheres);
     const Shot whole = pictureIn(viewer, viewer.waitForWhole(0));
     const glm::ivec2 size = whole.sizePixels, middle = size / 2;
@@ -331,8 +332,9 @@ TEST_F(ViewerPictures, ctrlAndTheWheelMagnifyPixelsAndKeysPinAndCopyWhatIsToldOf
     EXPECT_EQ(pictureIn(viewer, size).at(middle + kTimes / 2), whole.at(middle - glm::ivec2(4, 0))) << "it moved";
     const std::size_t mark = viewer.mark();
     viewer.key("i");
-    const std::string told = viewer.waitFor("inspected ", mark);
-    EXPECT_NE(told.find(fmt::format("inspected {}, {} of ", middle.x - 4, middle.y)), std::string::npos) << told;
+    const std::string reported = viewer.waitFor("inspected ", mark);
+    EXPECT_NE(reported.find(fmt::format("inspected {}, {} of ", middle.x - 4, middle.y)), std::string::npos)
+        << reported;
     viewer.key("p");
     EXPECT_NE(viewer.waitFor("pinned ", mark).find(fmt::format("{}, {} of ", middle.x - 4, middle.y)),
               std::string::npos);
@@ -435,9 +437,9 @@ TEST_F(ViewerPictures, differentTechniquesSideBySideDifferInNothing) {
     };
     EXPECT_EQ(litShare(belowTitle(difference)), 0.0) << "techniques are equal to the last bit, so nothing may be lit";
     constexpr int kTextLinePixels = 30;
-    EXPECT_GT(litShare(difference.part({0, 0}, {size.x / 2, kTextLinePixels})), 0.05) << "nobody says what differs";
+    EXPECT_GT(litShare(difference.part({0, 0}, {size.x / 2, kTextLinePixels})), 0.05) << "no message says what differs";
     EXPECT_GT(litShare(difference.part({0, kTextLinePixels}, {size.x / 2, kTextLinePixels})), 0.05)
-        << "nobody says why it is black";
+        << "no message says why it is black";
     mark = viewer.mark();
     viewer.key("3"); // another view on one side
     viewer.waitForWhole(mark);

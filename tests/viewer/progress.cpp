@@ -54,10 +54,10 @@ protected:
     }
 };
 
-TEST_F(ViewerProgressSlow, aLongPictureTellsHowFarItIsGetsFinerByStepsAndEscLeavesIt) {
+TEST_F(ViewerProgressSlow, aLongPictureReportsHowFarItIsGetsFinerByStepsAndEscLeavesIt) {
     DrivenViewer viewer = open(kSlowScene);
-    const std::string told = viewer.waitFor("progress Drawing the whole picture ", 0, 120.0);
-    EXPECT_TRUE(told.ends_with(" %")) << told << ": the steps before tell what passes take";
+    const std::string reported = viewer.waitFor("progress Drawing the whole picture ", 0, 120.0);
+    EXPECT_TRUE(reported.ends_with(" %")) << reported << ": the steps before give the times of passes";
     viewer.pause(0.3);
     EXPECT_TRUE(hasBox(viewer));
     const std::vector<double> steps = scales(viewer, 0, viewer.mark());
@@ -92,14 +92,14 @@ TEST_F(ViewerProgressSlow, aLongPictureTellsHowFarItIsGetsFinerByStepsAndEscLeav
     EXPECT_TRUE(pictureIn(viewer, size) == rendered(asOpened("hall", size) + " --technique forward", size));
 }
 
-TEST_F(ViewerProgressSlow, aDifferenceTellsWhichSideIsDrawnAndIsCancelledToo) {
+TEST_F(ViewerProgressSlow, aDifferenceReportsWhichSideIsDrawnAndIsCancelledToo) {
     DrivenViewer viewer = open(kSlowScene); // the right side starts with a fast technique
     viewer.waitFor("drawn ", 0);
     const std::size_t begin = viewer.mark();
     viewer.key("x"); // split
     viewer.key("x"); // difference
-    const std::string told = viewer.waitFor("progress Drawing the whole picture, ", begin, 120.0);
-    EXPECT_NE(told.find(", left side "), std::string::npos) << told;
+    const std::string reported = viewer.waitFor("progress Drawing the whole picture, ", begin, 120.0);
+    EXPECT_NE(reported.find(", left side "), std::string::npos) << reported;
     viewer.pause(0.3);
     EXPECT_TRUE(hasBox(viewer));
     cancel(viewer);
@@ -130,7 +130,7 @@ TEST_F(ViewerProgressSlow, escGivesUpAnEnvironmentThatIsLoadedBeforeThePictureTh
     viewer.waitFor("progress Drawing the whole picture ", 0, 120.0);
     std::size_t mark = viewer.mark();
     viewer.key("ctrl+o");
-    viewer.waitFor("asks what to open", mark);
+    viewer.waitFor("shows the open dialog", mark);
     viewer.pause(0.7);
     viewer.type("grey.hdr");
     viewer.pause(0.3);

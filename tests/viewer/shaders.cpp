@@ -50,7 +50,7 @@ TEST_F(ViewerShaders, aBrokenShaderNeverTakesThePictureAndItsMendingIsSeen) {
     viewer.waitForWhole(mark);
     const Shot mended = pictureIn(viewer, size);
     EXPECT_TRUE(mended.part({0, 0}, upper) == good.part({0, 0}, upper));
-    EXPECT_GT(differingShare(mended, good), 0.01) << "nobody says that they are good again";
+    EXPECT_GT(differingShare(mended, good), 0.01) << "no message says that they are good again";
     EXPECT_LT(differingShare(mended, good), 0.12) << "a line is enough";
     viewer.key("Escape");
     viewer.pause(0.5);

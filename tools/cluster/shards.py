@@ -82,7 +82,7 @@ def benchMerge(job):
 
 def groupsOf(words):
     """How many groups of points a bench has at most: a scene with one number of lights in one size each. None where the
-    words do not tell; what is wrong with a matrix the program says."""
+    words leave it open; the program reports faults of a matrix."""
     scenes = scenesOf(words)
     rest = words[1 + len(scenes):]
     for before, word in zip(["", *rest], rest):
@@ -229,7 +229,7 @@ def sbatch(job, work, arguments, array):
 
 
 def slurm(job, work, arguments, lines, merge):
-    """(commands to run, in order): the second waits for the first, whose job it is told by {job}."""
+    """(commands to run, in order): the second waits for the first, whose job replaces {job}."""
     script = str(HERE / "job.sh")
     commands = [sbatch(job, work, arguments, True) + [script, str(lines)]]
     if merge:

@@ -80,7 +80,8 @@ Json plotData(const BenchRecord& record) {
         const std::optional<Recommendation> choice = recommendFor(group);
         Json points = Json::array();
         for (std::size_t i = 0; i < group.results.size(); ++i)
-            points.push_back(plotPoint(group.results[i], kind, pareto[i], choice && choice->takes(group.results[i])));
+            points.push_back(
+                plotPoint(group.results[i], kind, pareto[i], choice && choice->recommends(group.results[i])));
         data["groups"].push_back({{"name", groupName(group)}, {"truth", group.truth}, {"points", points}});
     }
     for (const ScalingCurve& curve : scalingCurves(record.groups)) {
@@ -123,7 +124,7 @@ std::string answerHtml(const BenchRecord& record, const BenchGroup& group) {
     if (best.key.isLitByCompute()) how += ", compute";
     for (const std::string& text : methodTexts(best.key.methods)) how += ", " + text;
     if (best.key.rangeTolerance > 0.0) how += fmt::format(", range {:g}", best.key.rangeTolerance);
-    const bool isTaken = choice->takes(best);
+    const bool isTaken = choice->recommends(best);
     if (!isTaken) how += fmt::format(": {}, measured times crown none", choice->caveat);
     std::string html = unfinished + "<dl class=\"answer\">\n" +
                        tileHtml(isTaken ? "Take" : "Ahead", escapedHtml(best.key.technique), escapedHtml(how));
@@ -171,7 +172,8 @@ std::string scalingHtml(const BenchRecord& record) {
     return "<section id=\"scaling\">\n<h2>How time grows</h2>\n"
            "<p class=\"lede\">Both axes are logarithmic, so that a slope of 1 is time in proportion. The number behind "
            "a "
-           "name is its slope, where a line explains at least nine tenths of what the times vary by (R&sup2; from 0.9 "
+           "name is its slope, where a line explains at least nine tenths of the variance of the times (R&sup2; from "
+           "0.9 "
            "on). Tap a name to hide its curve.</p>\n"
            "<p class=\"controls\"><label>Show <select id=\"scaling-curves\"></select></label></p>\n"
            "<div class=\"plot tall\"><canvas id=\"scaling-plot\" role=\"img\" aria-label=\"Milliseconds a frame "

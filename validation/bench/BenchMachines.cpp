@@ -53,7 +53,7 @@ void addColumn(std::vector<MachineRow>& rows, std::size_t machine, std::size_t m
         if (row == rows.end()) row = rows.insert(rows.end(), MachineRow{name, {}});
         row->cells.resize(machines);
         row->cells[machine] = MachineCell{&result, fastestMs > 0.0 ? result.times.cpuMs.median / fastestMs : 1.0,
-                                          choice && choice->takes(result)};
+                                          choice && choice->recommends(result)};
     }
 }
 

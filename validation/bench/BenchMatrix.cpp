@@ -191,13 +191,13 @@ BenchMatrix parseMatrix(std::string_view json, const std::string& source, scenes
     if (!root.contains("technique")) points *= double(engine::techniqueTable().size());
     double variants = 1.0;
     for (const BenchMatrix::SettingValues& values : matrix.settings) variants *= double(values.texts.size());
-    const bool asksForPoints = points > double(kMostMatrixPoints);
-    if (asksForPoints || variants > double(kMostMatrixVariants))
-        throw InputError(fmt::format("{}: asks for {:.3g} {}, the product of its lists' lengths; at most {} can be "
+    const bool hasTooManyPoints = points > double(kMostMatrixPoints);
+    if (hasTooManyPoints || variants > double(kMostMatrixVariants))
+        throw InputError(fmt::format("{}: needs {:.3g} {}, the product of its lists' lengths; at most {} can be "
                                      "measured: shorten the lists, or divide them over several runs",
-                                     source, asksForPoints ? points : variants,
-                                     asksForPoints ? "points" : "combinations of settings",
-                                     asksForPoints ? kMostMatrixPoints : kMostMatrixVariants));
+                                     source, hasTooManyPoints ? points : variants,
+                                     hasTooManyPoints ? "points" : "combinations of settings",
+                                     hasTooManyPoints ? kMostMatrixPoints : kMostMatrixVariants));
     return matrix;
 }
 

@@ -41,14 +41,14 @@ std::string layoutName(const frame::GBufferLayout& layout) {
 /// Whether a range tolerance affects any light of the scene.
 bool rangesMatter(const scenes::Scene& scene) {
     return std::any_of(scene.lights.begin(), scene.lights.end(),
-                       [](const scenes::Light& light) { return light.enabled && frame::takesTolerance(light); });
+                       [](const scenes::Light& light) { return light.enabled && frame::mayBeTruncated(light); });
 }
 
 void skip(BenchPlan& plan, const std::string& what, const std::string& why) {
     plan.skipped.push_back({what, why});
 }
 
-void tellEachOnce(std::vector<SkippedPoint>& skipped) {
+void removeDuplicates(std::vector<SkippedPoint>& skipped) {
     std::set<std::pair<std::string_view, std::string_view>> known;
     std::vector<SkippedPoint> once;
     for (const SkippedPoint& point : skipped)
@@ -78,7 +78,7 @@ bool isSameFrame(const Variant& a, const Variant& b) {
 }
 
 struct Choice {
-    std::string asked; ///< keys and values from the matrix; empty without any
+    std::string requested; ///< keys and values from the matrix; empty without any
     frame::FrameSettings settings;
 };
 
@@ -98,8 +98,9 @@ std::vector<Choice> choicesOf(const BenchMatrix& matrix, const frame::FrameSetti
             for (const std::string& text : texts) {
                 engine::ViewRequest request{.settings = choice.settings};
                 settingFor(key, text).read(request, text);
-                longer.push_back({fmt::format("{}{}{} {}", choice.asked, choice.asked.empty() ? "" : ", ", key, text),
-                                  request.settings});
+                longer.push_back(
+                    {fmt::format("{}{}{} {}", choice.requested, choice.requested.empty() ? "" : ", ", key, text),
+                     request.settings});
             }
         }
         choices = std::move(longer);
@@ -151,7 +152,7 @@ std::vector<Variant> variantsOf(BenchPlan& plan, const PlannedGroup& group, cons
             if (same == ofRange.end())
                 ofRange.push_back(std::move(variant));
             else
-                skip(plan, fmt::format("{} in {}", choice.asked, placeOf(group)), whySame(*same));
+                skip(plan, fmt::format("{} in {}", choice.requested, placeOf(group)), whySame(*same));
         }
         std::ranges::move(ofRange, std::back_inserter(variants));
     }
@@ -182,14 +183,14 @@ public:
 private:
     std::vector<Method> methods() {
         if (matrix_.methods.empty()) {
-            const std::optional<Method>& asked = group_.settings.culling.method;
-            if (asked && engine::takesMethod(technique_, *asked)) return {*asked};
+            const std::optional<Method>& requested = group_.settings.culling.method;
+            if (requested && engine::supportsMethod(technique_, *requested)) return {*requested};
             if (matrix_.preferredMethodsOnly) return {info_.methods.front()};
             return {info_.methods.begin(), info_.methods.end()};
         }
         std::vector<Method> methods;
         for (const Method method : matrix_.methods) {
-            if (engine::takesMethod(technique_, method))
+            if (engine::supportsMethod(technique_, method))
                 methods.push_back(method);
             else
                 skip(plan_, fmt::format("{}, {}", info_.name, infoOf(method).name),
@@ -315,7 +316,7 @@ void addToPlan(BenchPlan& plan, const BenchMatrix& matrix, const std::string& sc
             if (!group.points.empty()) plan.groups.push_back(std::move(group));
         }
     }
-    tellEachOnce(plan.skipped);
+    removeDuplicates(plan.skipped);
     choosePictures(plan, sceneName);
 }
 

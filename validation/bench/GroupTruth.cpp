@@ -22,20 +22,20 @@ frame::FrameSettings exactSettings(frame::FrameSettings settings, frame::Texture
     return settings;
 }
 
-BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, double lightsAPixel,
+BenchTruth chooseTruth(std::optional<BenchTruth> requested, const frame::FrameSettings& settings, double lightsAPixel,
                        std::string& why) {
     why.clear();
-    if (asked) {
-        if (*asked == BenchTruth::Reference) requireReferenceTakes(settings);
-        if (*asked == BenchTruth::Forward) why = "forward was asked for";
-        return *asked;
+    if (requested) {
+        if (*requested == BenchTruth::Reference) requireReferenceSupports(settings);
+        if (*requested == BenchTruth::Forward) why = "forward was requested";
+        return *requested;
     }
     const double pairs = double(settings.sizePixels.x) * double(settings.sizePixels.y) * lightsAPixel;
     if (settings.view != frame::DebugView::Final)
         why = "the reference renders the view final only";
     else if (pairs > kAffordablePairs)
         why = fmt::format("the reference would try {:.1e} pairs of a point and a light, which takes minutes; it "
-                          "does where it is asked for",
+                          "does so on request",
                           pairs);
     return why.empty() ? BenchTruth::Reference : BenchTruth::Forward;
 }
@@ -48,7 +48,7 @@ GroupTruth::GroupTruth(engine::Renderer& renderer, BenchTruth truth, const frame
         picture_ = toPicture(renderer.render(engine::Technique::Forward, settings_));
         return;
     }
-    reference_ = referencePicture(renderer, settings_, rowDone, Leeway::Definition);
+    reference_ = referencePicture(renderer, settings_, rowDone, Alternatives::Definition);
     excluded_ = shownTriangles(renderer, settings_, reference_->ids).excluded;
     picture_ = reference_->picture;
 }
@@ -60,7 +60,7 @@ Picture GroupTruth::pictureFor(const Picture& shown) const {
 Picture GroupTruth::pictureOn(engine::Renderer& renderer, const frame::FrameSettings& settings,
                               const Picture& shown) const {
     return reference_ ? referencePicture(
-                            renderer, settings, [] {}, Leeway::Definition)
+                            renderer, settings, [] {}, Alternatives::Definition)
                             .nearestTo(shown)
                       : toPicture(renderer.render(engine::Technique::Forward, settings));
 }

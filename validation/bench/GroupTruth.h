@@ -20,7 +20,7 @@ inline constexpr double kAffordablePairs = 1.5e9;
 
 /// The requested truth; else the reference if the view is final and the cost affordable. `why` is the reason for not
 /// choosing the reference, else empty.
-BenchTruth chooseTruth(std::optional<BenchTruth> asked, const frame::FrameSettings& settings, double lightsAPixel,
+BenchTruth chooseTruth(std::optional<BenchTruth> requested, const frame::FrameSettings& settings, double lightsAPixel,
                        std::string& why);
 
 /// Settings of the truth: every channel in fp32, every light, no range tolerance, traced shadows and this filter.

@@ -90,22 +90,22 @@ private:
     engine::Renderer& rendererOf(const BenchPoint& point, const scenes::Scene& scene) {
         const std::optional<MethodKey>&shadows = point.key.method(MethodKind::Shadows),
               &subsurface = point.key.method(MethodKind::Subsurface);
-        const bool spreads = variesSubsurface_ && subsurface && !subsurface->values.empty();
+        const bool diffuses = variesSubsurface_ && subsurface && !subsurface->values.empty();
         const std::string kept = (shadows && usesMaps(*shadows) ? methodText(MethodKind::Shadows, *shadows) : "") +
-                                 (spreads ? "; " + methodText(MethodKind::Subsurface, *subsurface) : "");
+                                 (diffuses ? "; " + methodText(MethodKind::Subsurface, *subsurface) : "");
         if (kept.empty()) return renderer_;
         std::unique_ptr<engine::Renderer>& renderer = otherRenderers_[kept];
         if (!renderer) {
             renderer = std::make_unique<engine::Renderer>(context_, scene);
-            renderer->keepSpreadLight(!spreads);
+            renderer->keepDiffusedLight(!diffuses);
         }
         return *renderer;
     }
 
     /// Lights per pixel that the reference evaluates; with subsurface diffusion, at each of its surface points.
     double lightsAPixel() const {
-        const bool spreads = scenes::anySpreads(renderer_.scene(), planned_.settings.subsurface);
-        return double(planned_.lights) * (spreads ? double(reference::Settings{}.diffusionPoints) : 1.0);
+        const bool diffuses = scenes::anyDiffuses(renderer_.scene(), planned_.settings.subsurface);
+        return double(planned_.lights) * (diffuses ? double(reference::Settings{}.diffusionPoints) : 1.0);
     }
 
     void timeRounds() {

@@ -41,8 +41,8 @@ constexpr std::string_view kNoMaps = "no shadow is looked up in a map";
 constexpr MethodSetting kShadowSettings[] = {
     {"shadowSamples", "samples {}",
      [](const Facts& facts) { return bool(facts.prepared.lights.features[Feature::SoftShadows]); },
-     "no shadow is soft: no light with a size casts one, or the filter heeds no sizes"},
-    {"shadowWidth", "{0}x{0}", [](const Facts& facts) { return infoOf(facts.settings.shadowFilter).heedsWidth; },
+     "no shadow is soft: no light with a size casts one, or the filter ignores the sizes"},
+    {"shadowWidth", "{0}x{0}", [](const Facts& facts) { return infoOf(facts.settings.shadowFilter).usesWidth; },
      "the filter averages no square"},
     {"shadowResolution", "{} texels", hasMaps,
      "no shadow is looked up in a map, or the sides of faces follow from what lights reach in the picture", true},
@@ -65,15 +65,15 @@ std::set<scenes::SubsurfaceMethod> subsurfaceMethodsOf(const Facts& facts) {
     return methods;
 }
 
-bool spreads(const Facts& facts) {
-    return scenes::anySpreads(facts.scene, facts.settings.subsurface);
+bool diffuses(const Facts& facts) {
+    return scenes::anyDiffuses(facts.scene, facts.settings.subsurface);
 }
 
-constexpr std::string_view kNothingSpreads = "no light spreads";
+constexpr std::string_view kNothingDiffuses = "no surface diffuses light";
 constexpr MethodSetting kSubsurfaceSettings[] = {
-    {std::get<0>(frame::kDiffusionFields).name, "{} texels", spreads, kNothingSpreads},
-    {std::get<1>(frame::kDiffusionFields).name, "Gaussians {}", spreads, kNothingSpreads},
-    {std::get<2>(frame::kDiffusionFields).name, "half resolution {}", spreads, kNothingSpreads},
+    {std::get<0>(frame::kDiffusionFields).name, "{} texels", diffuses, kNothingDiffuses},
+    {std::get<1>(frame::kDiffusionFields).name, "Gaussians {}", diffuses, kNothingDiffuses},
+    {std::get<2>(frame::kDiffusionFields).name, "half resolution {}", diffuses, kNothingDiffuses},
 };
 static_assert(std::size(kSubsurfaceSettings) == std::tuple_size_v<decltype(frame::kDiffusionFields)>);
 
@@ -81,14 +81,14 @@ static_assert(std::size(kSubsurfaceSettings) == std::tuple_size_v<decltype(frame
 
 constexpr MethodSetting kEnvironmentSettings[] = {
     {"environmentSamples", "samples {}",
-     [](const Facts& facts) { return infoOf(facts.settings.environment.light).takesSamples; },
+     [](const Facts& facts) { return infoOf(facts.settings.environment.light).usesSamples; },
      "the environment's light is not sampled"},
     {"environmentCompensation", "compensation {}",
      [](const Facts& facts) { return infoOf(facts.settings.environment.light).lights; },
      "there is no light of the environment"},
 };
 constexpr MethodSetting kAreaSettings[] = {
-    {"areaSamples", "samples {}", [](const Facts& facts) { return infoOf(facts.settings.area.lights).takesSamples; },
+    {"areaSamples", "samples {}", [](const Facts& facts) { return infoOf(facts.settings.area.lights).usesSamples; },
      "the light of area lights is not sampled"}};
 
 } // namespace
@@ -96,7 +96,7 @@ constexpr MethodSetting kAreaSettings[] = {
 std::span<const MethodKindInfo> methodKindTable() {
     static const MethodKindInfo table[] = {
         {MethodKind::Shadows, "shadow", "shadowFilter", "shadows", "", kNoShadows, "no shadows", "there are no shadows",
-         "shadow filter", "Shapes tell how shadows are found.",
+         "shadow filter", "Shapes show how shadows are found.",
          [] { return namesOf(frame::shadowFilterTable(), {kNoShadows}); }, kShadowSettings,
          [](const Facts& facts) { return facts.prepared.lights.shadowed > 0; },
          [](const Facts& facts) {
@@ -106,7 +106,7 @@ std::span<const MethodKindInfo> methodKindTable() {
          "shadows", "there are no shadows"},
         {MethodKind::Subsurface, "subsurface", "subsurface", "subsurface", "",
          infoOf(scenes::SubsurfaceMethod::None).name, "no subsurface", "no material has a subsurface", "subsurface",
-         "Shapes tell what happens below surfaces.", [] { return namesOf(scenes::subsurfaceMethods()); },
+         "Shapes show what happens below surfaces.", [] { return namesOf(scenes::subsurfaceMethods()); },
          kSubsurfaceSettings, [](const Facts& facts) { return !subsurfaceMethodsOf(facts).empty(); },
          [](const Facts& facts) {
              const std::set<scenes::SubsurfaceMethod> methods = subsurfaceMethodsOf(facts);
@@ -114,12 +114,12 @@ std::span<const MethodKindInfo> methodKindTable() {
          }},
         {MethodKind::Environment, "environmentLight", "environmentLight", "environment", "environment ",
          infoOf(frame::EnvironmentLight::Off).name, "no environment light", "no environment shines",
-         "environment light", "Shapes tell how the environment's light is found.",
+         "environment light", "Shapes show how the environment's light is found.",
          [] { return namesOf(frame::environmentLightTable()); }, kEnvironmentSettings,
          [](const Facts& facts) { return frame::isLitByEnvironment(facts.scene, facts.settings); },
          [](const Facts& facts) { return std::string(infoOf(facts.settings.environment.light).name); }},
         {MethodKind::AreaLights, "areaLights", "areaLights", "area lights", "area lights ", "", "",
-         "no area light shines", "area lights", "Shapes tell how the light of area lights is found.",
+         "no area light shines", "area lights", "Shapes show how the light of area lights is found.",
          [] { return namesOf(frame::areaLightsTable()); }, kAreaSettings,
          [](const Facts& facts) { return facts.prepared.spec.areaLights > 0; },
          [](const Facts& facts) { return std::string(infoOf(facts.settings.area.lights).name); }},

@@ -145,7 +145,7 @@ std::string recommendationText(const BenchGroup& group) {
     std::string text;
     if (choice->caveat == kBusy)
         text =
-            fmt::format("The machine was too busy to tell which technique is best for {}: some frames took more than "
+            fmt::format("The machine was too busy to decide which technique is best for {}: some frames took more than "
                         "twice the median. Measure again. So far {} leads: ",
                         groupName(group), pointName(best.key));
     else if (choice->caveat == kNothingToCull)

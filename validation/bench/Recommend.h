@@ -27,7 +27,7 @@ struct Recommendation {
     std::optional<double> speedup;      ///< of best over forward
     std::optional<double> exactSpeedup; ///< of exact over forward
 
-    bool takes(const BenchResult& result) const { return caveat.empty() && best == &result; }
+    bool recommends(const BenchResult& result) const { return caveat.empty() && best == &result; }
 };
 
 /// Whether two times are indistinguishable: each median lies within the other's spread, the distance from median to

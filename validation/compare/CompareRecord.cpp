@@ -183,10 +183,10 @@ std::string compareJson(const CompareRecord& record) {
         json["lost"] = Json::array();
         for (const LostGeometry& lost : record.lost) json["lost"].push_back(lostJson(lost));
     }
-    if (record.spreadLight)
-        json["spreadLight"] = {{"pixels", record.spreadLight->pixels},
-                               {"integral", record.spreadLight->integral},
-                               {"facingAway", record.spreadLight->facingAway}};
+    if (record.diffusedLight)
+        json["spreadLight"] = {{"pixels", record.diffusedLight->pixels},
+                               {"integral", record.diffusedLight->integral},
+                               {"facingAway", record.diffusedLight->facingAway}};
     if (record.rangeTruncation) json["rangeTruncation"] = rangeTruncationJson(*record.rangeTruncation);
     // File names need not be UTF-8: replaces invalid bytes, so that the record is written all the same.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -205,12 +205,12 @@ std::string compareTable(const CompareRecord& record) {
                             shareText(record.pairs.front().figures.excluded));
     for (const ComparePair& pair : record.pairs)
         if (pair.shadows) text += fmt::format("shadows: {}: {}\n", pair.a, shadowText(*pair.shadows));
-    if (record.spreadLight)
+    if (record.diffusedLight)
         text += fmt::format(
-            "spread light: in {} pixels; the profile's integral over the surface, by which the reference "
+            "diffused light: in {} pixels; the profile's integral over the surface, by which the reference "
             "divides, is {:.4g} on average; {} of it is where the surface faces away, which light does "
             "not reach along the surface\n",
-            record.spreadLight->pixels, record.spreadLight->integral, shareText(record.spreadLight->facingAway));
+            record.diffusedLight->pixels, record.diffusedLight->integral, shareText(record.diffusedLight->facingAway));
     for (const LostGeometry& lost : record.lost) text += "geometry: " + lostText(lost) + "\n";
     for (const ComparePair& pair : record.pairs)
         if (!isHeld(pair) && !pair.tolerance.reason.empty())

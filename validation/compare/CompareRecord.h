@@ -20,7 +20,7 @@ struct ChannelShare {
 
 /// Subsurface diffusion in the reference, as means over the pixels that show it. Images with diffusion along the
 /// surface must differ from it where these figures deviate from a plane's.
-struct SpreadLight {
+struct DiffusedLight {
     std::size_t pixels = 0;
     double integral = 1.0;   ///< integral of the profile over the surface, by which the reference divides; 1 on a plane
     double facingAway = 0.0; ///< fraction of it where the surface faces away, as across thin parts
@@ -61,7 +61,7 @@ struct CompareRecord {
     std::vector<LostGeometry> lost = {}; ///< differences that rounding does not explain, with either filter
     std::vector<LeftOutTechnique> leftOut = {};
     std::optional<RangeTruncation> rangeTruncation = {}; ///< where a tolerance is set
-    std::optional<SpreadLight> spreadLight = {};         ///< against the reference, if light is diffused
+    std::optional<DiffusedLight> diffusedLight = {};     ///< against the reference, if light is diffused
 
     /// Whether there is a pair and every verdict is ok. Without a tolerance only the requirements of all pairs count.
     bool ok() const;

@@ -85,7 +85,7 @@ std::vector<double> frameMs(engine::Renderer& renderer, const std::vector<engine
         kinds.emplace_back([&renderer, &settings, technique](const glm::dvec3& eyeOffsetWS) {
             frame::FrameSettings moved = settings;
             moved.eyeOffsetWS += eyeOffsetWS;
-            renderer.draw(technique, settingsTakenBy(technique, moved));
+            renderer.draw(technique, supportedSettings(technique, moved));
         });
     }
     std::vector<double> medians;

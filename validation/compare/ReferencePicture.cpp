@@ -49,7 +49,7 @@ reference::Settings referenceSettings(const scenes::Scene& scene, const frame::F
     return result;
 }
 
-void requireReferenceTakes(const frame::FrameSettings& settings) {
+void requireReferenceSupports(const frame::FrameSettings& settings) {
     if (settings.view != frame::DebugView::Final) {
         throw InputError(fmt::format("the reference renders the view final only, not {}; set the view to final",
                                      frame::debugViewInfo(settings.view).name));
@@ -63,24 +63,25 @@ void requireReferenceTakes(const frame::FrameSettings& settings) {
 namespace {
 
 /// Rejects diffusion in hooked materials: entry points are found during lighting, too late to run the hook there.
-void requireNoneSpreads(const scenes::Scene& scene, const scenes::SubsurfaceRequest& subsurface) {
+void requireNoDiffusion(const scenes::Scene& scene, const scenes::SubsurfaceRequest& subsurface) {
     for (const int place : scene.hook->materials) {
         const scenes::Material& material = scene.materials[std::size_t(place)];
-        if (infoOf(scenes::subsurfaceOf(material, subsurface)).spreads)
-            throw InputError(fmt::format("{}: the reference knows no light that spreads below '{}', which the hook "
+        if (infoOf(scenes::subsurfaceOf(material, subsurface)).diffuses)
+            throw InputError(fmt::format("{}: the reference diffuses no light below '{}', which the hook "
                                          "changes; give --subsurface depth_map, wrap or none",
                                          scene.name, material.name));
     }
 }
 
 ReferencePicture pictureOf(const scenes::Scene& scene, const frame::FrameSettings& settings,
-                           const std::function<void()>& rowDone, Leeway leeway, reference::RunHook runHook) {
-    requireReferenceTakes(settings);
+                           const std::function<void()>& rowDone, Alternatives alternatives,
+                           reference::RunHook runHook) {
+    requireReferenceSupports(settings);
     engine::prepareView(scene, engine::Technique::Forward, settings); // throws for names that the scene lacks
     reference::Settings wanted = referenceSettings(scene, settings);
     wanted.runHook = std::move(runHook);
-    wanted.leeway = leeway != Leeway::None;
-    if (leeway != Leeway::DefinitionAndNoise) wanted.shadowSamples = 0;
+    wanted.findsAlternatives = alternatives != Alternatives::None;
+    if (alternatives != Alternatives::DefinitionAndNoise) wanted.shadowSamples = 0;
     reference::Rendered rendered = reference::render(scene, wanted, rowDone);
     ReferencePicture result;
     result.picture.width = rendered.width;
@@ -95,7 +96,7 @@ ReferencePicture pictureOf(const scenes::Scene& scene, const frame::FrameSetting
     result.alternatives = std::move(rendered.alternatives);
     result.undecidedShadows = std::move(rendered.undecidedShadows);
     result.shadowNoise = std::move(rendered.shadowNoise);
-    result.spread = std::move(rendered.spread);
+    result.diffused = std::move(rendered.diffused);
     result.surroundings = std::move(rendered.surroundings);
     result.areaLights = std::move(rendered.areaLights);
     result.errorWeights = std::move(rendered.errorWeights);
@@ -105,26 +106,26 @@ ReferencePicture pictureOf(const scenes::Scene& scene, const frame::FrameSetting
 } // namespace
 
 ReferencePicture referencePicture(const scenes::Scene& scene, const frame::FrameSettings& settings,
-                                  const std::function<void()>& rowDone, Leeway leeway) {
+                                  const std::function<void()>& rowDone, Alternatives alternatives) {
     // A scene whose vertices a renderer has already moved is an ordinary scene.
     if (scene.hook && (scene.hook->changesSurfaces || scene.hook->movesVertices))
         throw InputError(
             fmt::format("{}: the reference runs no shaders, and so no hook without a renderer; take '{}' out",
                         scene.name, scene.hook->file));
-    return pictureOf(scene, settings, rowDone, leeway, {});
+    return pictureOf(scene, settings, rowDone, alternatives, {});
 }
 
 ReferencePicture referencePicture(engine::Renderer& renderer, const frame::FrameSettings& settings,
-                                  const std::function<void()>& rowDone, Leeway leeway) {
+                                  const std::function<void()>& rowDone, Alternatives alternatives) {
     const scenes::Scene& scene = renderer.sceneAt(settings.timeSeconds);
     reference::RunHook runHook;
     if (scene.hook && scene.hook->changesSurfaces) {
-        requireNoneSpreads(scene, settings.subsurface);
+        requireNoDiffusion(scene, settings.subsurface);
         runHook = [&](std::span<const scenes::HookPoint> points) {
             return engine::hookedSurfaces(*scene.hook, settings.timeSeconds, points, renderer.programs());
         };
     }
-    return pictureOf(scene, settings, rowDone, leeway, std::move(runHook));
+    return pictureOf(scene, settings, rowDone, alternatives, std::move(runHook));
 }
 
 namespace {
@@ -230,7 +231,7 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
     }
     const auto isArea = [&](std::size_t i) { return scenes::infoOf(scene.lights[i].type).isArea; };
     if (anyShining(scene, settings, isArea)) {
-        tolerance.reason = infoOf(settings.area.lights).takesSamples
+        tolerance.reason = infoOf(settings.area.lights).usesSamples
                                ? "samples of area lights have noise: the error is reported, and held to nothing"
                                : "transformed cosines approximate lobes under area lights: their error is reported, "
                                  "and held to nothing";
@@ -248,9 +249,9 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
                            "the error is reported, and held to nothing";
         return tolerance;
     }
-    if (scenes::anySpreads(scene, settings.subsurface)) {
+    if (scenes::anyDiffuses(scene, settings.subsurface)) {
         tolerance.reason =
-            "light spread in texture space is an approximation: its error is reported, and held to nothing";
+            "light diffused in texture space is an approximation: its error is reported, and held to nothing";
         return tolerance;
     }
     // Hook outputs vary over a surface in fp32, as textures do.

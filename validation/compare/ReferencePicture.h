@@ -15,7 +15,7 @@
 namespace tessera::validation {
 
 /// Throws InputError unless the reference renders frames of these settings: the final view, one sample per pixel.
-void requireReferenceTakes(const frame::FrameSettings& settings);
+void requireReferenceSupports(const frame::FrameSettings& settings);
 
 /// Converts a frame's settings to the reference's.
 reference::Settings referenceSettings(const scenes::Scene& scene, const frame::FrameSettings& settings);
@@ -38,9 +38,9 @@ struct ReferencePicture {
     std::vector<std::uint8_t> undecidedShadows; ///< as in reference::Rendered
     std::vector<reference::Noise> shadowNoise;  ///< as in reference::Rendered
 
-    std::vector<reference::Diffusion::Answer> spread; ///< as in reference::Rendered
-    std::vector<reference::Estimate> surroundings;    ///< as in reference::Rendered
-    std::vector<reference::Estimate> areaLights;      ///< as in reference::Rendered
+    std::vector<reference::Diffusion::Answer> diffused; ///< as in reference::Rendered
+    std::vector<reference::Estimate> surroundings;      ///< as in reference::Rendered
+    std::vector<reference::Estimate> areaLights;        ///< as in reference::Rendered
 
     /// Shadow figures of `shown` against the reference's image. `excluded` is as in errorFigures().
     ShadowFigures shadowFigures(const Picture& shown, std::span<const std::uint8_t> excluded) const;
@@ -48,20 +48,20 @@ struct ReferencePicture {
 
 /// Alternatives to find besides the image: none; those that the definition allows, which take up to fifteen times as
 /// long; or also those that the noise of traced rays to lights with a size allows.
-enum class Leeway : std::uint8_t { None, Definition, DefinitionAndNoise };
+enum class Alternatives : std::uint8_t { None, Definition, DefinitionAndNoise };
 
 /// Renders a frame by definition, with the texture filter of the settings. `rowDone` is called once per row, from any
-/// thread. Throws InputError if the settings name something that the scene lacks, if requireReferenceTakes() throws, or
-/// if the scene has a hook.
+/// thread. Throws InputError if the settings name something that the scene lacks, if requireReferenceSupports() throws,
+/// or if the scene has a hook.
 ReferencePicture referencePicture(
     const scenes::Scene& scene, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
-    Leeway leeway = Leeway::DefinitionAndNoise);
+    Alternatives alternatives = Alternatives::DefinitionAndNoise);
 
 /// The same for a renderer's scene at the time of the settings, with its hook, which the renderer runs. Moving vertices
 /// invalidates the latest frame.
 ReferencePicture referencePicture(
     engine::Renderer& renderer, const frame::FrameSettings& settings, const std::function<void()>& rowDone = [] {},
-    Leeway leeway = Leeway::DefinitionAndNoise);
+    Alternatives alternatives = Alternatives::DefinitionAndNoise);
 
 /// Whether a frame has traced shadows, so that ReferencePicture::shadowFigures() is meaningful.
 bool hasTracedShadows(const scenes::Scene& scene, const frame::FrameSettings& settings);

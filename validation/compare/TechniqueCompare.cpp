@@ -22,14 +22,14 @@ namespace {
 using engine::Technique;
 
 /// An image to compare with the truth.
-struct Asked {
+struct RequestedPicture {
     Technique technique;
     std::string name;
     frame::FrameSettings settings; ///< the request's, except for the layout
 };
 
-std::vector<Asked> askedPictures(const CompareRequest& request) {
-    std::vector<Asked> all;
+std::vector<RequestedPicture> requestedPictures(const CompareRequest& request) {
+    std::vector<RequestedPicture> all;
     for (const Technique technique : request.techniques)
         all.push_back({technique, std::string(infoOf(technique).name), request.settings});
     for (const LayoutPair& pair : request.layouts) {
@@ -41,7 +41,7 @@ std::vector<Asked> askedPictures(const CompareRequest& request) {
 }
 
 NamedPicture rendered(engine::Renderer& renderer, Technique technique, const frame::FrameSettings& settings) {
-    const engine::RenderedFrame frame = renderer.render(technique, settingsTakenBy(technique, settings));
+    const engine::RenderedFrame frame = renderer.render(technique, supportedSettings(technique, settings));
     return {std::string(infoOf(technique).name), toPicture(frame), toDisplayImage(frame)};
 }
 
@@ -100,7 +100,7 @@ bool measuresTruncation(const CompareRequest& request) {
 RangeTruncation truncationOf(engine::Renderer& renderer, const CompareRequest& request) {
     const auto* truth = std::get_if<Technique>(&request.against);
     const Technique technique = truth ? *truth : request.techniques.front();
-    return rangeTruncation(renderer, technique, settingsTakenBy(technique, request.settings));
+    return rangeTruncation(renderer, technique, supportedSettings(technique, request.settings));
 }
 
 /// The culling method of the frame just drawn; empty if it visits all lights.
@@ -135,10 +135,10 @@ const frame::GBufferLayout& packingApart(const CompareRequest& request, Techniqu
 }
 
 /// The index of an earlier G-buffer image with the same layout that is bit-identical to `picture`.
-std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<const Asked> asked, const Asked& one,
-                                        const Picture& picture) {
+std::optional<std::size_t> equalPicture(const CompareResult& result, std::span<const RequestedPicture> requested,
+                                        const RequestedPicture& one, const Picture& picture) {
     for (std::size_t i = 0; i < result.pictures.size(); ++i)
-        if (infoOf(asked[i].technique).usesGBuffer() && asked[i].settings.layout == one.settings.layout &&
+        if (infoOf(requested[i].technique).usesGBuffer() && requested[i].settings.layout == one.settings.layout &&
             result.pictures[i].picture.rgba == picture.rgba)
             return i;
     return {};
@@ -161,19 +161,20 @@ std::vector<std::vector<frame::Channel>> channelsOfOneError(const frame::Feature
 }
 
 /// The error that each stored channel causes, from the pair's relMse with that channel alone in fp32.
-std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const Asked& asked, const TruthPicture& truth,
-                                        double relMse) {
+std::vector<ChannelShare> channelShares(engine::Renderer& renderer, const RequestedPicture& requested,
+                                        const TruthPicture& truth, double relMse) {
     std::vector<ChannelShare> shares;
     const frame::FeatureSet features =
-        frame::surfaceFeatures(renderer.scene(), asked.settings.prune, asked.settings.subsurface);
-    for (const std::vector<frame::Channel>& channels : channelsOfOneError(features, asked.settings.layout)) {
-        frame::FrameSettings settings = asked.settings;
+        frame::surfaceFeatures(renderer.scene(), requested.settings.prune, requested.settings.subsurface);
+    for (const std::vector<frame::Channel>& channels : channelsOfOneError(features, requested.settings.layout)) {
+        frame::FrameSettings settings = requested.settings;
         std::vector<std::string_view> names;
         for (const frame::Channel channel : channels) {
             settings.layout.encoding[std::size_t(channel)] = frame::Encoding::Exact;
             names.push_back(frame::channelTable()[std::size_t(channel)].name);
         }
-        const Picture picture = toPicture(renderer.render(asked.technique, settingsTakenBy(asked.technique, settings)));
+        const Picture picture =
+            toPicture(renderer.render(requested.technique, supportedSettings(requested.technique, settings)));
         const double without = truth.figuresOf(picture).relMse;
         shares.push_back({fmt::format("{}", fmt::join(names, " and ")), without, relMse - without});
     }
@@ -198,11 +199,12 @@ bool showsSigned(const CompareRequest& request) {
 /// Checks the image with every channel in fp32 against the exact layout's tolerance. A packed layout's tolerance alone
 /// could hide a faint light that was skipped; with this check only quantisation is left to differ.
 void checkWithoutPacking(engine::Renderer& renderer, const gpu::Capabilities& gl, const CompareRequest& request,
-                         const Asked& asked, const TruthPicture& truth, Verdict& verdict) {
-    frame::FrameSettings settings = asked.settings;
+                         const RequestedPicture& requested, const TruthPicture& truth, Verdict& verdict) {
+    frame::FrameSettings settings = requested.settings;
     settings.layout = frame::exactLayout().layout;
-    const Picture picture = toPicture(renderer.render(asked.technique, settingsTakenBy(asked.technique, settings)));
-    Tolerance tolerance = toleranceOf(renderer, gl, request, asked.technique, settings.layout);
+    const Picture picture =
+        toPicture(renderer.render(requested.technique, supportedSettings(requested.technique, settings)));
+    Tolerance tolerance = toleranceOf(renderer, gl, request, requested.technique, settings.layout);
     tolerance.isSigned = showsSigned(request);
     for (const std::string& missed : truth.verdictOf(picture, tolerance).missed)
         verdict.missed.push_back("with every channel in fp32: " + missed);
@@ -254,15 +256,15 @@ frame::FrameSettings resetWhere(Technique technique, const frame::FrameSettings&
 
 } // namespace
 
-frame::FrameSettings settingsTakenBy(engine::Technique technique, const frame::FrameSettings& settings) {
+frame::FrameSettings supportedSettings(engine::Technique technique, const frame::FrameSettings& settings) {
     return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::ViewRequest& request) {
-        return setting.samePicture && !setting.isTaken(request);
+        return setting.samePicture && !setting.isSupported(request);
     });
 }
 
-frame::FrameSettings settingsHeededBy(engine::Technique technique, const frame::FrameSettings& settings) {
+frame::FrameSettings settingsUsedBy(engine::Technique technique, const frame::FrameSettings& settings) {
     return resetWhere(technique, settings, [](const engine::Setting& setting, const engine::ViewRequest& request) {
-        return setting.samePicture && !setting.isHeededBy(request.technique);
+        return setting.samePicture && !setting.isUsedBy(request.technique);
     });
 }
 
@@ -275,23 +277,24 @@ std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request)
     const std::size_t truth = isReference(request) ? references * std::size_t(request.settings.sizePixels.y)
                               : std::holds_alternative<Technique>(request.against) ? 1
                                                                                    : 0;
-    return askedPictures(request).size() + truth + (measuresTruncation(request) ? 1 : 0);
+    return requestedPictures(request).size() + truth + (measuresTruncation(request) ? 1 : 0);
 }
 
 std::vector<std::string> pictureNames(const scenes::Scene& scene, const CompareRequest& request) {
     std::vector<std::string> names;
-    for (Asked& asked : askedPictures(request)) names.push_back(std::move(asked.name));
+    for (RequestedPicture& requested : requestedPictures(request)) names.push_back(std::move(requested.name));
     if (showsHardwareFilter(scene, request)) names.push_back(hardwareFilterName(names.front()));
     return names;
 }
 
-std::vector<Technique> techniquesTaking(const frame::FrameSettings& settings, std::vector<LeftOutTechnique>& leftOut) {
+std::vector<Technique> techniquesSupporting(const frame::FrameSettings& settings,
+                                            std::vector<LeftOutTechnique>& leftOut) {
     std::vector<Technique> techniques;
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
-        const engine::ViewRequest request{info.technique, settingsHeededBy(info.technique, settings)};
+        const engine::ViewRequest request{info.technique, settingsUsedBy(info.technique, settings)};
         const auto table = engine::settingTable();
         const auto refused =
-            std::ranges::find_if(table, [&](const engine::Setting& setting) { return !setting.isTaken(request); });
+            std::ranges::find_if(table, [&](const engine::Setting& setting) { return !setting.isSupported(request); });
         if (refused == table.end())
             techniques.push_back(info.technique);
         else
@@ -332,16 +335,16 @@ Tolerance pairTolerance(Technique technique, const frame::GBufferLayout& packing
 }
 
 /// Means over the pixels with diffused light; unset if there are none.
-std::optional<SpreadLight> spreadLight(const ReferencePicture& truth) {
-    SpreadLight sum{0, 0.0, 0.0};
-    for (const reference::Diffusion::Answer& answer : truth.spread) {
+std::optional<DiffusedLight> diffusedLight(const ReferencePicture& truth) {
+    DiffusedLight sum{0, 0.0, 0.0};
+    for (const reference::Diffusion::Answer& answer : truth.diffused) {
         if (answer.whole == glm::dvec3(0.0)) continue;
         ++sum.pixels;
         sum.integral += (answer.whole.r + answer.whole.g + answer.whole.b) / 3.0;
         sum.facingAway += answer.apart;
     }
     if (sum.pixels == 0) return {};
-    return SpreadLight{sum.pixels, sum.integral / double(sum.pixels), sum.facingAway / double(sum.pixels)};
+    return DiffusedLight{sum.pixels, sum.integral / double(sum.pixels), sum.facingAway / double(sum.pixels)};
 }
 
 CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilities& gl,
@@ -350,33 +353,34 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
     const TruthPicture truth = truthPicture(renderer, request);
     result.truth = truth.own;
     result.record.lost = truth.triangles.lost;
-    if (truth.reference) result.record.spreadLight = spreadLight(*truth.reference);
+    if (truth.reference) result.record.diffusedLight = diffusedLight(*truth.reference);
     result.record.excludesPixels = !truth.triangles.excluded.empty();
     result.record.scene = renderer.scene().name;
     result.record.width = request.settings.sizePixels.x;
     result.record.height = request.settings.sizePixels.y;
     result.record.samples = engine::chooseSamples(engine::settingsOn(gl, request.settings));
     result.record.renderer = gl.renderer;
-    const std::vector<Asked> all = askedPictures(request);
-    for (const Asked& asked : all) {
-        NamedPicture picture = rendered(renderer, asked.technique, asked.settings);
-        picture.name = asked.name;
+    const std::vector<RequestedPicture> all = requestedPictures(request);
+    for (const RequestedPicture& requested : all) {
+        NamedPicture picture = rendered(renderer, requested.technique, requested.settings);
+        picture.name = requested.name;
         const std::string culling = cullingText(renderer);
         requireSameSize(picture.picture, picture.name, result.truth.picture, result.truth.name);
         Tolerance tolerance = request.tolerance
                                   ? *request.tolerance
-                                  : toleranceOf(renderer, gl, request, asked.technique, asked.settings.layout);
+                                  : toleranceOf(renderer, gl, request, requested.technique, requested.settings.layout);
         tolerance.isSigned = showsSigned(request);
         PairTruth own = truth.of(picture.picture);
         const DisplayImage nearest =
-            truth.reference ? engine::toDisplayImage(own.picture, asked.settings) : truth.own.display;
+            truth.reference ? engine::toDisplayImage(own.picture, requested.settings) : truth.own.display;
         ComparePair pair = comparePair(picture.name, picture.picture, truth.own.name, own.picture, tolerance,
                                        own.excluded, shownPair(request, picture.display, nearest));
         pair.culling = culling;
-        if (truth.reference && !request.tolerance && !isPacked(packingOf(asked.technique, asked.settings.layout)))
+        if (truth.reference && !request.tolerance &&
+            !isPacked(packingOf(requested.technique, requested.settings.layout)))
             pair.verdict = truth.verdictOf(picture.picture, tolerance);
-        if (truth.reference && hasTracedShadows(renderer.scene(), asked.settings) &&
-            !isPacked(packingOf(asked.technique, asked.settings.layout))) {
+        if (truth.reference && hasTracedShadows(renderer.scene(), requested.settings) &&
+            !isPacked(packingOf(requested.technique, requested.settings.layout))) {
             pair.shadows = truth.reference->shadowFigures(picture.picture, own.excluded);
             if (!request.tolerance)
                 for (std::string& missed : missedByShadows(*pair.shadows, longestSpan(renderer.scene())))
@@ -384,16 +388,16 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
             pair.verdict.ok = pair.verdict.missed.empty();
         }
         // Against a truth that is packed too, fp32 would only measure the truth's packing.
-        if (isPacked(packingOf(asked.technique, asked.settings.layout)) && !isPacked(packingOfTruth(request))) {
+        if (isPacked(packingOf(requested.technique, requested.settings.layout)) && !isPacked(packingOfTruth(request))) {
             if (request.channelShares) {
                 // Identical images from one G-buffer have the same error per channel.
-                const std::optional<std::size_t> equal = equalPicture(result, all, asked, picture.picture);
+                const std::optional<std::size_t> equal = equalPicture(result, all, requested, picture.picture);
                 pair.channels = equal ? result.record.pairs[*equal].channels
-                                      : channelShares(renderer, asked, truth, pair.figures.relMse);
+                                      : channelShares(renderer, requested, truth, pair.figures.relMse);
             }
             // An image file need not come from this renderer, so the exact layout's tolerance does not apply to it.
             if (!request.tolerance && !std::holds_alternative<PictureTruth>(request.against))
-                checkWithoutPacking(renderer, gl, request, asked, truth, pair.verdict);
+                checkWithoutPacking(renderer, gl, request, requested, truth, pair.verdict);
         }
         result.record.pairs.push_back(std::move(pair));
         result.pictures.push_back(std::move(picture));

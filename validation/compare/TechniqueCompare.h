@@ -61,9 +61,9 @@ struct CompareResult {
 
 /// Resets settings that change only how an image is made (engine::Setting::samePicture) to their defaults, where the
 /// technique does not support the requested value.
-frame::FrameSettings settingsTakenBy(engine::Technique technique, const frame::FrameSettings& settings);
+frame::FrameSettings supportedSettings(engine::Technique technique, const frame::FrameSettings& settings);
 /// The same where the technique ignores the setting. A setting that it reads stays, even if unsupported.
-frame::FrameSettings settingsHeededBy(engine::Technique technique, const frame::FrameSettings& settings);
+frame::FrameSettings settingsUsedBy(engine::Technique technique, const frame::FrameSettings& settings);
 
 /// Number of progress steps of compareTechniques(): images, rows of the reference's images, and the range tolerance.
 std::size_t stepCount(const scenes::Scene& scene, const CompareRequest& request);
@@ -84,8 +84,8 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
 std::string hardwareFilterName(const std::string& technique);
 
 /// The techniques that support all settings that they read. The others go to `leftOut` with the reason.
-std::vector<engine::Technique> techniquesTaking(const frame::FrameSettings& settings,
-                                                std::vector<LeftOutTechnique>& leftOut);
+std::vector<engine::Technique> techniquesSupporting(const frame::FrameSettings& settings,
+                                                    std::vector<LeftOutTechnique>& leftOut);
 
 /// The tolerance of a technique against another in a scene with `lightCount` lights; Tolerance::reason is its reason.
 /// `packing` is the coarser packing of the two, or exact if both are packed alike.

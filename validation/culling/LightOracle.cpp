@@ -153,7 +153,7 @@ public:
                 std::size_t(row) * std::size_t(input_.settings.sizePixels.x) + std::size_t(column);
             if (!(input_.depth[pixel] > 0.0f)) continue;
             ++counts.figures.covered;
-            if (!input_.takesLight.empty() && input_.takesLight[pixel] == 0) {
+            if (!input_.isLit.empty() && input_.isLit[pixel] == 0) {
                 if (counts.pixelsByVisited.empty()) counts.pixelsByVisited.resize(1);
                 ++counts.pixelsByVisited[0];
                 continue;

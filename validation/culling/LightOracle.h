@@ -46,8 +46,8 @@ struct OracleInput {
     std::span<const float> depth; ///< of the surfaces to judge, reverse-Z, one per pixel; 0: no surface
     /// RGBA per pixel. Empty: neededLit is not counted, and lists must hold the lights behind surfaces as well.
     std::span<const float> normalWS;
-    SurfaceLayer layer = SurfaceLayer::Opaque;     ///< of the surfaces
-    std::span<const std::uint8_t> takesLight = {}; ///< per pixel, 0: its surface is unlit; empty: all are lit
+    SurfaceLayer layer = SurfaceLayer::Opaque; ///< of the surfaces
+    std::span<const std::uint8_t> isLit = {};  ///< per pixel, 0: its surface is unlit; empty: all are lit
 };
 LightOracleFigures judgeLights(const OracleInput& input); ///< throws std::invalid_argument without required normals
 

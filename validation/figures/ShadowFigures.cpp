@@ -23,12 +23,12 @@ std::vector<std::string> missedByShadows(const ShadowFigures& figures, const std
                         "light far longer or farther away than others takes their digits{}",
                         100.0 * figures.undecided, longest.empty() ? "" : ", farthest " + longest));
     if (!(figures.noise <= figures.mostNoise))
-        missed.push_back(fmt::format("soft shadows have {:.3g} times the noise of independent rays, at most {:.3g} was "
-                                     "asked for",
+        missed.push_back(fmt::format("soft shadows have {:.3g} times the noise of independent rays, at most {:.3g} is "
+                                     "required",
                                      figures.noise, figures.mostNoise));
     const double mostBias = kReferenceBias + kShadowNoises * figures.biasNoise;
     if (!(std::abs(figures.bias) <= mostBias))
-        missed.push_back(fmt::format("bias (magnitude) of soft shadows is {:.3g}, at most {:.3g} was asked for",
+        missed.push_back(fmt::format("bias (magnitude) of soft shadows is {:.3g}, at most {:.3g} is required",
                                      std::abs(figures.bias), mostBias));
     return missed;
 }

@@ -39,7 +39,7 @@ void checkFigure(std::vector<std::string>& missed, const char* name, double valu
         missed.push_back(fmt::format("{} could not be measured", name));
     else if (isLeast ? value < *limit : value > *limit)
         missed.push_back(
-            fmt::format("{} is {:.9g}, {} {:.9g} was asked", name, value, isLeast ? "at least" : "at most", *limit));
+            fmt::format("{} is {:.9g}, {} {:.9g} is required", name, value, isLeast ? "at least" : "at most", *limit));
 }
 
 } // namespace

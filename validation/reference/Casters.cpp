@@ -122,7 +122,7 @@ Casters::Met Casters::meet(const Segment& segment, const Hit* own, const scenes:
     return std::move(query.met);
 }
 
-double Casters::leewayMetres(const glm::dvec3& placeRWS) const {
+double Casters::toleranceMetres(const glm::dvec3& placeRWS) const {
     const double common = kPositionRounding * (originMetres_ + anchor_.otherOriginMetres) + roundingMetres_;
     const double reach = glm::length(placeRWS - anchor_.centreRWS) + anchor_.otherOriginMetres;
     return 4.0 * (common + 2.0 * kPositionRounding * reach);

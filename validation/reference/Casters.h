@@ -37,12 +37,12 @@ public:
 
     /// Rounding tolerance of a position. A program holds point and light in fp32 relative to one origin, casters to
     /// another: twice eight roundings of both. It may take a triangle's plane for the point's own within as much again.
-    double leewayMetres(const glm::dvec3& placeRWS) const;
+    double toleranceMetres(const glm::dvec3& placeRWS) const;
 
     /// The same for the other end of a shadow ray: the light's position, or (not placed) the end of a ray with a
     /// rounded direction. A direction is rounded as a position is.
-    double leewayMetres(bool isPlaced, const ShiningLight& light, double pointMetres, double wayMetres) const {
-        return isPlaced ? leewayMetres(light.positionRWS) : pointMetres + kPositionRounding * wayMetres;
+    double toleranceMetres(bool isPlaced, const ShiningLight& light, double pointMetres, double wayMetres) const {
+        return isPlaced ? toleranceMetres(light.positionRWS) : pointMetres + kPositionRounding * wayMetres;
     }
 
 private:

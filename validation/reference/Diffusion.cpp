@@ -151,18 +151,18 @@ Diffusion::Diffusion(const Objects& objects, const Textures& textures, std::span
                      const Surroundings& surroundings, const Occlusion& occlusion, const Settings& settings)
     : surfaces_(new Surfaces{objects, textures, lights, surroundings, occlusion, settings, {}, {}}) {
     // The sum over many points needs fewer rays for each.
-    surfaces_->settings.leeway = false;
+    surfaces_->settings.findsAlternatives = false;
     surfaces_->settings.shadowSamples = 0;
     surfaces_->settings.shadowRings = 2;
     surfaces_->settings.penumbraRings = 2;
     surfaces_->settings.areaTolerance = 1e-3;
-    std::vector<const Object*> spreading;
+    std::vector<const Object*> diffusing;
     for (const std::vector<Object>* list : {&objects.opaque(), &objects.transparent()})
         for (const Object& object : *list)
-            if (infoOf(object.subsurface).spreads) spreading.push_back(&object);
-    if (spreading.empty()) return;
+            if (infoOf(object.subsurface).diffuses) diffusing.push_back(&object);
+    if (diffusing.empty()) return;
     surfaces_->device = makeDevice();
-    surfaces_->tree = makeTree(surfaces_->device.get(), spreading, objects.anchor().centreRWS, keepCrossing);
+    surfaces_->tree = makeTree(surfaces_->device.get(), diffusing, objects.anchor().centreRWS, keepCrossing);
 }
 
 Diffusion::~Diffusion() = default;

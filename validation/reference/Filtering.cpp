@@ -41,8 +41,8 @@ glm::dvec4 bilinear(const Pyramid& pyramid, int level, const scenes::Sampler& sa
 
 glm::dvec4 inLevel(const Pyramid& pyramid, int level, Filter filter, const scenes::Sampler& sampler,
                    const glm::dvec2& texCoord) {
-    return takesNearest(filter) ? nearest(pyramid, level, sampler, texCoord)
-                                : bilinear(pyramid, level, sampler, texCoord);
+    return usesNearest(filter) ? nearest(pyramid, level, sampler, texCoord)
+                               : bilinear(pyramid, level, sampler, texCoord);
 }
 
 } // namespace
@@ -58,12 +58,12 @@ double finestLevelOf(const Footprint& footprint, glm::ivec2 sizeTexels) {
 }
 
 double magnifiedUpTo(const scenes::Sampler& sampler) {
-    const bool keepsSmooth = !takesNearest(sampler.magnification) && takesNearest(sampler.minification) &&
+    const bool keepsSmooth = !usesNearest(sampler.magnification) && usesNearest(sampler.minification) &&
                              sampler.minification != Filter::Nearest;
     return keepsSmooth ? 0.5 : 0.0;
 }
 
-bool takesNearest(Filter filter) {
+bool usesNearest(Filter filter) {
     return filter == Filter::Nearest || filter == Filter::NearestMipmapNearest || filter == Filter::NearestMipmapLinear;
 }
 

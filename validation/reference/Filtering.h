@@ -24,7 +24,7 @@ double finestLevelOf(const Footprint& footprint, glm::ivec2 sizeTexels);
 double magnifiedUpTo(const scenes::Sampler& sampler);
 
 /// Whether a filter takes the nearest texel of a level.
-bool takesNearest(scenes::Filter filter);
+bool usesNearest(scenes::Filter filter);
 
 /// Samples an image with a sampler at a level of detail; linear. The magnification filter applies up to `magnified`.
 glm::dvec4 filtered(const Pyramid& pyramid, const scenes::Sampler& sampler, const glm::dvec2& texCoord, double level,

@@ -60,17 +60,17 @@ void takeAll(const scenes::HookedSurface& before, const scenes::HookedSurface& a
 
 void HookPoints::change(const Hit& hit, SurfacePoint& point) {
     const scenes::HookPoint own = pointOf(hit, point);
-    const auto begin = asked_.begin(), next = begin + std::ptrdiff_t(next_), end = asked_.end();
+    const auto begin = requested_.begin(), next = begin + std::ptrdiff_t(next_), end = requested_.end();
     auto found = std::find(next, end, own);
     if (found == end) {
         found = std::find(begin, next, own);
         if (found == next) found = end;
     }
     if (!areKnown_) {
-        if (found == end) asked_.push_back(own);
+        if (found == end) requested_.push_back(own);
         return;
     }
-    if (found == end) throw std::logic_error("a pixel lights a point that it did not ask its hook about");
+    if (found == end) throw std::logic_error("a pixel lights a point that it did not pass to its hook");
     next_ = std::size_t(found - begin);
     takeAll(own.surface, known_[next_], point);
 }

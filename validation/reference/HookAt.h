@@ -15,15 +15,15 @@ public:
     void change(const Hit& hit, SurfacePoint& point);
 
     bool areKnown() const { return areKnown_; }
-    std::span<const scenes::HookPoint> asked() const { return asked_; }
-    /// Sets the hook's results, one for each of asked().
+    std::span<const scenes::HookPoint> requested() const { return requested_; }
+    /// Sets the hook's results, one for each of requested().
     void know(std::span<const scenes::HookedSurface> surfaces) {
         known_.assign(surfaces.begin(), surfaces.end());
         areKnown_ = true;
     }
 
 private:
-    std::vector<scenes::HookPoint> asked_; ///< without duplicates
+    std::vector<scenes::HookPoint> requested_; ///< without duplicates
     std::vector<scenes::HookedSurface> known_;
     std::size_t next_ = 0; ///< start of the search: the second pass meets points in the same order
     bool areKnown_ = false;

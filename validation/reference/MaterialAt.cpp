@@ -128,7 +128,7 @@ SurfacePoint surfaceAt(const Hit& hit, const Textures& textures,
         point.wrap = double(material.subsurface.wrap) * glm::dvec3(material.subsurface.wrapTint);
         point.bodyRadiusMetres = hit.object->bodyRadiusMetres;
     }
-    point.spreads = method.spreads;
+    point.diffuses = method.diffuses;
     // The path length inside can only be measured among shadow casters.
     point.passes = method.passes && scenes::castsShadow(material);
     if (point.passes) {

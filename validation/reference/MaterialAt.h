@@ -46,7 +46,7 @@ struct SurfacePoint {
     double bodyMetres = 0.0;          ///< thickness of the body
     glm::dvec3 wrap{0.0};             ///< by channel, minus the cosine at which wrapped light ends
     double bodyRadiusMetres = 0.0;    ///< of the body that wrapped light travels round
-    bool spreads = false;             ///< diffuses light that enters (Diffusion.h)
+    bool diffuses = false;            ///< diffuses light that enters (Diffusion.h)
     bool passes = false;              ///< transmits light from behind
     glm::dvec3 absorptionPerMetre{0}; ///< of light from behind, by channel, per scene metre
     /// The values that transmission keeps where a hook has changed those of the surface.

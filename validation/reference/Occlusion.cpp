@@ -91,9 +91,9 @@ double pixelMetres(const Hit& hit) {
 struct OwnPlane {
     glm::dvec3 normal{0.0}; ///< unit, towards the viewer; 0 if the triangle has no area
     /// A program stores the normal in 24 bits, and derives it from rounded corners or from rounded points of pixels.
-    double leewayRadians = 0.0;
+    double toleranceRadians = 0.0;
 
-    OwnPlane(const glm::dvec3& litNormal, double leeway) : normal(litNormal), leewayRadians(leeway) {}
+    OwnPlane(const glm::dvec3& litNormal, double tolerance) : normal(litNormal), toleranceRadians(tolerance) {}
     OwnPlane(const Hit& surface, const glm::dvec3& toViewer) {
         glm::dvec3 corners[3];
         for (int i = 0; i < 3; ++i) corners[i] = surface.object->cornerRWS(surface.triangle, i);
@@ -103,12 +103,12 @@ struct OwnPlane {
         normal = across / (glm::dot(across, toViewer) < 0.0 ? -area : area);
         double longest = 0.0;
         for (int i = 0; i < 3; ++i) longest = std::max(longest, glm::length(corners[(i + 1) % 3] - corners[i]));
-        leewayRadians = kStoredFacetRadians + 4.0 * surface.roundingMetres * longest / area + surface.roundingPixels;
+        toleranceRadians = kStoredFacetRadians + 4.0 * surface.roundingMetres * longest / area + surface.roundingPixels;
     }
     bool hides(const glm::dvec3& toPlace) const { return glm::dot(normal, toPlace) < 0.0; }
     /// Whether a program may decide otherwise, if it also moves the direction to the place by `metres`.
     bool isUndecided(const glm::dvec3& toPlace, double metres) const {
-        return std::abs(glm::dot(normal, toPlace)) <= leewayRadians * glm::length(toPlace) + metres;
+        return std::abs(glm::dot(normal, toPlace)) <= toleranceRadians * glm::length(toPlace) + metres;
     }
 };
 
@@ -141,7 +141,7 @@ Occlusion::Answer decided(double share) {
 }
 
 /// Rounding error of a ray's start: `metres` in every direction, and for a lifted point this step up or down.
-struct PointLeeway {
+struct PointTolerance {
     double metres = 0.0;
     glm::dvec3 liftStep{0.0};
     double reachMetres() const { return metres + glm::length(liftStep); }
@@ -149,16 +149,16 @@ struct PointLeeway {
 
 /// Visibility of the light at one end of a segment, 0 or 1. `own` is null where the point's own plane does not count.
 Occlusion::Answer decide(const Casters& casters, const Segment& segment, bool isPlaced, const ShiningLight& light,
-                         const Hit* surface, const OwnPlane* own, const PointLeeway& point, bool leeway) {
+                         const Hit* surface, const OwnPlane* own, const PointTolerance& point, bool findsAlternatives) {
     const bool isBehind = own && own->hides(segment.along);
-    if (isBehind && !leeway) return decided(0.0);
+    if (isBehind && !findsAlternatives) return decided(0.0);
     const Casters::Met exact = casters.meet(segment, surface);
     const double share = exact.isHidden || isBehind ? 0.0 : 1.0;
-    if (!leeway) return decided(share);
+    if (!findsAlternatives) return decided(share);
     const Occlusion::Answer undecided{share, 0.0, 1.0, true};
     if (exact.isUndecided) return undecided;
     const glm::dvec3& along = segment.along;
-    const double lightMetres = casters.leewayMetres(isPlaced, light, point.metres, glm::length(along));
+    const double lightMetres = casters.toleranceMetres(isPlaced, light, point.metres, glm::length(along));
     // Where casters hide the light, the point's own triangle does not matter.
     const bool isOwnUndecided = own && own->isUndecided(along, point.reachMetres() + lightMetres);
     if (isBehind && !isOwnUndecided) return decided(0.0);
@@ -210,7 +210,7 @@ Occlusion::Answer Occlusion::of(const ShiningLight& light, const Hit& hit, const
     above.terminatorLift = lift;
     Answer answer = from(above, light, settings);
     // The height's rounding error is as large as the point's.
-    if (!settings.leeway || lift > kLiftLeastPixels * pixelMetres(hit) + casters_->leewayMetres(pointRWS))
+    if (!settings.findsAlternatives || lift > kLiftLeastPixels * pixelMetres(hit) + casters_->toleranceMetres(pointRWS))
         return answer;
     const Answer exact = from(onTriangle, light, settings);
     answer.isUndecided = answer.isUndecided || std::abs(answer.share - exact.share) > kDecisiveShare;
@@ -243,16 +243,16 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
     const OwnPlane* const own = wraps ? nullptr : &ownPlane;
     // A lifted point may be hidden by its own triangle, but only from places behind it.
     const bool isBeforeOwn = glm::dot(ownTriangle.normal, toLight) >
-                             ownTriangle.leewayRadians * distance + radius + 2.0 * casters.leewayMetres(fromRWS);
+                             ownTriangle.toleranceRadians * distance + radius + 2.0 * casters.toleranceMetres(fromRWS);
     const Hit* const start = lift > 0.0 || (terminatorLift > 0.0 && !isBeforeOwn) ? nullptr : &hit;
     // The error of the triangle's normal also moves a lifted point sideways.
     const double asideMetres =
         terminatorLift > 0.0 ? 0.5 * kStoredFacetRadians * terminatorLift + 2.0 * hit.roundingMetres : 0.0;
-    const PointLeeway point{casters.leewayMetres(fromRWS) + (wraps ? kNormalRounding * surface.bodyRadiusMetres : 0.0) +
-                                asideMetres,
-                            kLiftSteps * terminatorLift * ownTriangle.normal};
+    const PointTolerance point{casters.toleranceMetres(fromRWS) +
+                                   (wraps ? kNormalRounding * surface.bodyRadiusMetres : 0.0) + asideMetres,
+                               kLiftSteps * terminatorLift * ownTriangle.normal};
     const Segment toCentre{from, toLight * reach};
-    if (radius == 0.0) return decide(casters, toCentre, isPlaced, light, start, own, point, settings.leeway);
+    if (radius == 0.0) return decide(casters, toCentre, isPlaced, light, start, own, point, settings.findsAlternatives);
     Answer sum{0.0, 0.0, 0.0};
     double halves[2] = {0.0, 0.0}; // sums of alternating rays
     // An area light's outline is already clipped at the surface, so only samples in front of ownPlane count.
@@ -289,7 +289,7 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
     // Independent rays exceed five standard deviations in one case of 10^6; two rays are added for distributions far
     // from normal. Where all rays agree, a program's must too.
     const double rays = std::max(counted * double(settings.shadowSamples), 1.0);
-    const bool isNoisy = settings.leeway && settings.shadowSamples > 0 && sum.share > 0.0 && sum.share < 1.0;
+    const bool isNoisy = settings.findsAlternatives && settings.shadowSamples > 0 && sum.share > 0.0 && sum.share < 1.0;
     const double spread = sum.share * (1.0 - sum.share);
     if (isNoisy) {
         sum.noise.variance = spread / rays;
@@ -299,15 +299,16 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
     // Where rounding decides whether casters hide the middle of a light, it may decide the rest. The middle of a
     // polygon may lie far from its position, where no ray ends.
     const Segment toMiddle{from, (toLight + face.middle()) * reach};
-    if (settings.leeway && toMiddle.along != glm::dvec3(0.0) &&
+    if (settings.findsAlternatives && toMiddle.along != glm::dvec3(0.0) &&
         decide(casters, toMiddle, isPlaced, light, start, nullptr, point, true).isUndecided) {
         stray = 1.0;
         sum.isUndecided = true;
     }
     // ownPlane may clip the face elsewhere, along a chord of at most the face's diameter.
-    const double metres = point.reachMetres() + casters.leewayMetres(isPlaced, light, point.metres, distance * reach);
-    const double cut = ownPlane.leewayRadians * std::hypot(distance, face.reachMetres()) + metres / reach;
-    if (settings.leeway && own && std::abs(glm::dot(own->normal, toLight)) <= face.reachMetres() + cut) {
+    const double metres =
+        point.reachMetres() + casters.toleranceMetres(isPlaced, light, point.metres, distance * reach);
+    const double cut = ownPlane.toleranceRadians * std::hypot(distance, face.reachMetres()) + metres / reach;
+    if (settings.findsAlternatives && own && std::abs(glm::dot(own->normal, toLight)) <= face.reachMetres() + cut) {
         const double share = face.shareOfCut(cut, own->normal) / std::max(counted, 1e-9);
         stray += share;
         sum.isUndecided = sum.isUndecided || share > kDecisiveShare;
@@ -318,7 +319,7 @@ Occlusion::Answer Occlusion::from(const Start& begin, const ShiningLight& light,
 }
 
 Occlusion::Passage Occlusion::passageOf(const ShiningLight& light, const Hit& hit, const SurfacePoint& surface,
-                                        const glm::dvec3& pointRWS, bool leeway) const {
+                                        const glm::dvec3& pointRWS, bool findsAlternatives) const {
     const Casters& casters = *casters_;
     if (!light.castsShadow || casters.empty()) return {};
     const bool isPlaced = scenes::infoOf(light.light.type).hasPosition();
@@ -328,9 +329,9 @@ Occlusion::Passage Occlusion::passageOf(const ShiningLight& light, const Hit& hi
     const glm::dvec3 along = toLight * (isPlaced ? 1.0 : 2.0 * (casters.radiusMetres() + glm::length(from)) + 1.0);
     Passage passage;
     passage.share = passage.least = passage.most = passageAlong(casters, {from, along}, hit, surface);
-    if (!leeway) return passage;
-    const double pointMetres = casters.leewayMetres(pointRWS);
-    const double lightMetres = casters.leewayMetres(isPlaced, light, pointMetres, glm::length(along));
+    if (!findsAlternatives) return passage;
+    const double pointMetres = casters.toleranceMetres(pointRWS);
+    const double lightMetres = casters.toleranceMetres(isPlaced, light, pointMetres, glm::length(along));
     for (const Segment& moved : movedEnds({from, along}, pointMetres, lightMetres)) {
         const glm::dvec3 other = passageAlong(casters, moved, hit, surface);
         passage.least = glm::min(passage.least, other);

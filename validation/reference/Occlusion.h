@@ -40,7 +40,7 @@ public:
         bool isUndecided = false;
     };
     Passage passageOf(const ShiningLight& light, const Hit& hit, const SurfacePoint& surface,
-                      const glm::dvec3& pointRWS, bool leeway) const;
+                      const glm::dvec3& pointRWS, bool findsAlternatives) const;
 
 private:
     struct Start;

@@ -29,9 +29,9 @@ public:
         for (int column = 0; column < rendered.width; ++column) {
             const std::size_t at = placeOf(column, row, rendered);
             HookPoints& own = points[std::size_t(column)];
-            const bool isAsking = !own.areKnown();
+            const bool isPending = !own.areKnown();
             pixel(sight_.rays().through(column, row), at, rendered, &own);
-            if (!isAsking) continue;
+            if (!isPending) continue;
             rendered.ids[at] = {};
             rendered.covered[at] = 0;
             rendered.alternatives[at].clear();
@@ -64,19 +64,19 @@ private:
                 rendered.errorWeights[at][c] = float(lit.radiance[c] / (lit.radiance[c] + lit.radianceMore[c]));
         if (shown.seen.opaque && !shown.memos.empty()) {
             const SurfaceMemo& memo = shown.memos[0];
-            if (memo.spread) rendered.spread[at] = *memo.spread;
+            if (memo.diffused) rendered.diffused[at] = *memo.diffused;
             if (memo.surroundings) rendered.surroundings[at] = *memo.surroundings;
         }
-        if (!settings_.leeway) return;
+        if (!settings_.findsAlternatives) return;
         std::vector<Span>& alternatives = rendered.alternatives[at];
         rendered.undecidedShadows[at] = shown.hasUndecidedShadows() ? 1 : 0;
-        addLeeway(shown, lit.radiance, alternatives);
+        addTextureAlternatives(shown, lit.radiance, alternatives);
         const glm::dvec2 placePixels(double(at % std::size_t(rendered.width)) + 0.5,
                                      double(at / std::size_t(rendered.width)) + 0.5);
         for (const Seen& other : sight_.otherLights(placePixels, surfaces, shown.seen))
             addOther({ray, other, shown.seed, hookPoints, {}}, alternatives);
         const bool isNoiseAlone = alternatives.empty() && rendered.undecidedShadows[at] == 0;
-        addShadowLeeway(shown, lit.radiance, alternatives);
+        addShadowAlternatives(shown, lit.radiance, alternatives);
         for (const Hit& hit : sight_.coincidentWith(ray, shown.seen))
             addOther({ray, {hit, {}, shown.seen.transparent}, 0, hookPoints, {}}, alternatives);
         if (isNoiseAlone && alternatives.size() == 1) rendered.shadowNoise[at] = lit.noise;
@@ -86,12 +86,12 @@ private:
     void addOther(Shown other, std::vector<Span>& alternatives) const {
         const glm::dvec3 radiance = shading_.shade(other).radiance;
         alternatives.push_back({radiance, radiance});
-        addLeeway(other, radiance, alternatives);
-        addShadowLeeway(other, radiance, alternatives);
+        addTextureAlternatives(other, radiance, alternatives);
+        addShadowAlternatives(other, radiance, alternatives);
     }
 
     /// Adds what these surfaces may show besides: the ends of each tolerance, and by hardware all between them.
-    void addLeeway(Shown& shown, const glm::dvec3& radiance, std::vector<Span>& alternatives) const {
+    void addTextureAlternatives(Shown& shown, const glm::dvec3& radiance, std::vector<Span>& alternatives) const {
         if (!sight_.isUndecided(shown.seen)) return;
         Span span{radiance, radiance};
         for (const Nudge& nudge : nudges()) {
@@ -104,7 +104,7 @@ private:
 
     /// Adds what the surfaces may show where rounding decides whether a light is hidden: anything from all such lights
     /// hidden to none of them.
-    void addShadowLeeway(Shown& shown, const glm::dvec3& radiance, std::vector<Span>& alternatives) const {
+    void addShadowAlternatives(Shown& shown, const glm::dvec3& radiance, std::vector<Span>& alternatives) const {
         const Span span{shading_.shade(shown, {}, Shading::Shadows::Most).radiance,
                         shading_.shade(shown, {}, Shading::Shadows::Least).radiance};
         if (span.least == radiance && span.most == radiance) return;
@@ -128,12 +128,13 @@ void renderHooked(const Pixels& picture, const RunHook& runHook, Rendered& rende
             picture.hookedRow(row, rendered, std::span(points).subspan(std::size_t(row - first) * width, width));
         };
         tbb::parallel_for(first, end, draw);
-        std::vector<scenes::HookPoint> asked;
-        for (const HookPoints& own : points) asked.insert(asked.end(), own.asked().begin(), own.asked().end());
-        const std::vector<scenes::HookedSurface> known = runHook(asked);
+        std::vector<scenes::HookPoint> allRequested;
+        for (const HookPoints& own : points)
+            allRequested.insert(allRequested.end(), own.requested().begin(), own.requested().end());
+        const std::vector<scenes::HookedSurface> known = runHook(allRequested);
         std::size_t from = 0;
         for (HookPoints& own : points) {
-            const std::size_t count = own.asked().size();
+            const std::size_t count = own.requested().size();
             own.know(std::span(known).subspan(from, count));
             from += count;
         }
@@ -157,7 +158,7 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
     rendered.alternatives.resize(pixels);
     rendered.undecidedShadows.resize(pixels);
     rendered.shadowNoise.resize(pixels);
-    rendered.spread.resize(pixels);
+    rendered.diffused.resize(pixels);
     rendered.surroundings.resize(pixels);
     rendered.areaLights.resize(pixels);
     rendered.errorWeights.assign(pixels, glm::vec3(1.0f));
@@ -176,7 +177,7 @@ Rendered render(const scenes::Scene& scene, const Settings& settings, const std:
 struct Probe::Look {
     Settings settings;
     Sight sight;
-    Look(const scenes::Scene& scene, const Settings& asked) : settings(asked), sight(scene, settings) {}
+    Look(const scenes::Scene& scene, const Settings& requested) : settings(requested), sight(scene, settings) {}
 };
 
 Probe::Probe(const scenes::Scene& scene, const Settings& settings) : look_(new Look(scene, settings)) {}

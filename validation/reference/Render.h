@@ -33,9 +33,9 @@ struct Rendered {
     /// Noise of the channels' sum by Settings::shadowSamples rays to each light with a size; none where there are other
     /// alternatives than their noise.
     std::vector<Noise> shadowNoise;
-    std::vector<Diffusion::Answer> spread; ///< diffused light of opaque surfaces; all 0 elsewhere
-    std::vector<Estimate> surroundings;    ///< environment light of opaque surfaces; all 0 elsewhere
-    std::vector<Estimate> areaLights;      ///< light of area lights from all surfaces together (AreaLights.h)
+    std::vector<Diffusion::Answer> diffused; ///< diffused light of opaque surfaces; all 0 elsewhere
+    std::vector<Estimate> surroundings;      ///< environment light of opaque surfaces; all 0 elsewhere
+    std::vector<Estimate> areaLights;        ///< light of area lights from all surfaces together (AreaLights.h)
     /// Weight of the pixel's error, by channel: radiance over the radiance if rough glass transmitted at least
     /// Settings::leastRoughTransmittance.
     std::vector<glm::vec3> errorWeights;

@@ -51,10 +51,9 @@ bool isWithin(const scenes::LightCorners& corners, const glm::dvec2& place) {
     return std::abs(turned) > std::numbers::pi;
 }
 
-static_assert(
-    scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
-    "a new shape needs a case in entryOf() or entryOfFlat(), which take what they do not know for a tube or a "
-    "rectangle");
+static_assert(scenes::kAreaTypeCount == 5 && scenes::kFlatTypeCount == 3,
+              "a new shape needs a case in entryOf() or entryOfFlat(), which treat any other shape as a tube or a "
+              "rectangle");
 
 /// The depth at which a ray meets a flat light: solves middle + x along + y across = origin + t direction.
 std::optional<double> entryOfFlat(const scenes::Light& light, const glm::dvec3& start, const glm::dvec3& direction) {

@@ -69,8 +69,8 @@ struct Settings {
     int shadowSamples = 0;          ///< shadow rays of the compared program: their noise is allowed; 0: none is
     bool specular = true;           ///< false leaves the specular lobe out
     Filtering filtering = Filtering::Exact;
-    bool leeway = true;          ///< whether to find Rendered::alternatives, other values that the definition allows
-    double rangeTolerance = 0.0; ///< irradiance (colour x intensity) at which A B C and area lights end; 0: nowhere
+    bool findsAlternatives = true; ///< finds Rendered::alternatives, other values that the definition allows
+    double rangeTolerance = 0.0;   ///< irradiance (colour x intensity) at which A B C and area lights end; 0: nowhere
     /// Set where the scene's hook changes surfaces. Called by the rendering thread, once per batch of rows.
     RunHook runHook;
     /// Errors of light through rough glass are relative to at least this fraction of the light that enters

@@ -112,7 +112,7 @@ Shading::Lit Shading::litSurface(Shown& shown, std::size_t surface, const Nudge&
     if (surroundings_.lights()) {
         // Reused for nudges: the rounding that they stand for changes this light less than its sampling noise.
         if (!memo.surroundings)
-            memo.surroundings = surroundings_.on(point, toViewer, settings_.specular, point.spreads, shown.seed,
+            memo.surroundings = surroundings_.on(point, toViewer, settings_.specular, point.diffuses, shown.seed,
                                                  isThroughBody ? shown.throughBodyPaths : settings_.environmentPaths);
         lit.radiance += memo.surroundings->light;
     }
@@ -128,10 +128,10 @@ Shading::Lit Shading::litSurface(Shown& shown, std::size_t surface, const Nudge&
         lit.noise += answer.noise.times(unhidden.r + unhidden.g + unhidden.b);
         if (isArea) lit.areaLights += found.times(share);
     }
-    if (point.spreads) {
-        if (!memo.spread) memo.spread = diffusion_.at(hit, positionRWS, shown.seed);
+    if (point.diffuses) {
+        if (!memo.diffused) memo.diffused = diffusion_.at(hit, positionRWS, shown.seed);
         lit.radiance +=
-            memo.spread->light * leaving(point, toViewer, double(hit.object->material->subsurface.preScatterShare));
+            memo.diffused->light * leaving(point, toViewer, double(hit.object->material->subsurface.preScatterShare));
     } else if (point.passes) {
         lit.radiance += passedOnBy(hit, point, positionRWS, toViewer, shadows, memo);
     }
@@ -343,7 +343,7 @@ glm::dvec3 Shading::passedOnBy(const Hit& hit, const SurfacePoint& point, const 
         auto& known = memo.passages;
         known.resize(lights_.size());
         if (!known[light])
-            known[light] = occlusion_.passageOf(lights_[light], hit, point, positionRWS, settings_.leeway);
+            known[light] = occlusion_.passageOf(lights_[light], hit, point, positionRWS, settings_.findsAlternatives);
         radiance += whole * shareOf(*known[light], shadows);
     }
     return radiance;
@@ -366,7 +366,7 @@ glm::dvec3 Shading::lightOn(const SurfacePoint& point, const ShiningLight& light
     const Incident incident = incidentAt(light, positionRWS);
     if (incident.irradiance == glm::dvec3(0.0)) return glm::dvec3(0.0);
     glm::dvec3 share = reflected(point, incident.toLight, toViewer, settings_.specular);
-    if (point.spreads) share -= reflected(point, incident.toLight, toViewer, false);
+    if (point.diffuses) share -= reflected(point, incident.toLight, toViewer, false);
     return share * incident.irradiance;
 }
 
@@ -379,7 +379,7 @@ Estimate Shading::areaLightOn(std::size_t light, const Nudge& nudge, bool isThro
     Settings settings = settings_;
     if (isNudged || isThroughBody) settings.areaTolerance = std::max(settings.areaTolerance, kNudgedTolerance);
     const auto integral = [&] {
-        return reflectedOf(lights_[light], point, positionRWS, toViewer, settings_.specular, point.spreads, settings);
+        return reflectedOf(lights_[light], point, positionRWS, toViewer, settings_.specular, point.diffuses, settings);
     };
     if (isNudged) return integral();
     auto& known = memo.areaLights;

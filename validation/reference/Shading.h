@@ -21,7 +21,7 @@ struct SurfaceMemo {
     std::vector<std::optional<Occlusion::Answer>> shadows; ///< by light
     std::vector<std::optional<Occlusion::Passage>> passages;
     std::vector<std::optional<Estimate>> areaLights; ///< unshadowed
-    std::optional<Diffusion::Answer> spread;
+    std::optional<Diffusion::Answer> diffused;
     std::optional<Estimate> surroundings;
     std::optional<BodyLight> throughBody;
 };

@@ -163,8 +163,8 @@ std::vector<Hit> Sight::coincidentWith(const Ray& ray, const Seen& seen) const {
     std::vector<Hit> others;
     if (!seen.opaque) return others;
     const Hit& nearest = *seen.opaque;
-    const double leewayMetres = nearest.roundingMetres + objects_.roundingMetres();
-    for (const Hit& hit : visibility_.opaqueBefore(ray, nearest.depthMetres + leewayMetres)) {
+    const double toleranceMetres = nearest.roundingMetres + objects_.roundingMetres();
+    for (const Hit& hit : visibility_.opaqueBefore(ray, nearest.depthMetres + toleranceMetres)) {
         const bool isOther = hit.object != nearest.object || hit.triangle != nearest.triangle;
         if (isOther && areCoincident(hit, nearest) &&
             opacitiesOf(hit).second >= double(hit.object->material->alphaCutoff))

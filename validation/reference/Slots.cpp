@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "validation/reference/Filtering.h"
-#include "validation/reference/Leeway.h"
+#include "validation/reference/LookupTolerance.h"
 
 namespace tessera::reference {
 
@@ -21,16 +21,17 @@ Footprint footprintOf(const scenes::TextureUse& use, const Hit& hit) {
 }
 
 bool isUndecided(const scenes::Sampler& sampler, const Footprint& footprint, glm::ivec2 sizeTexels,
-                 const Leeway& leeway) {
-    const bool magnified = takesNearest(sampler.magnification), minified = takesNearest(sampler.minification);
+                 const LookupTolerance& tolerance) {
+    const bool magnified = usesNearest(sampler.magnification), minified = usesNearest(sampler.minification);
     if (!magnified && !minified) return false;
     const double level = levelOf(footprint, sizeTexels), limit = magnifiedUpTo(sampler);
-    if (magnified != minified && level > leeway.magnifiedFrom - leeway.coarser && level <= limit + leeway.finer)
+    if (magnified != minified && level > tolerance.magnifiedFrom - tolerance.coarser &&
+        level <= limit + tolerance.finer)
         return true;
     if (!(level > limit ? minified : magnified)) return false;
     const glm::dvec2 place = footprint.texCoord * glm::dvec2(sizeTexels);
     const glm::dvec2 toEdge = glm::abs(place - glm::round(place));
-    return glm::any(glm::lessThanEqual(toEdge, leeway.texCoord * glm::dvec2(sizeTexels)));
+    return glm::any(glm::lessThanEqual(toEdge, tolerance.texCoord * glm::dvec2(sizeTexels)));
 }
 
 /// Moves a texel's code values by `codes`, down or up.
@@ -56,15 +57,15 @@ glm::dvec4 texelOf(scenes::TextureSlot slot, const Hit& hit, const Textures& tex
     const double level = levelOf(footprint, pyramid.sizeTexels(0));
     const double magnified = magnifiedUpTo(use.sampler);
     if (hit.nudge == Nudge()) return filtered(pyramid, use.sampler, footprint.texCoord, level, magnified);
-    const Leeway leeway = leewayOf(textures.filtering(), use, footprint, pyramid, hit);
-    const glm::dvec2 texCoord = footprint.texCoord + glm::dvec2(hit.nudge.texCoord) * leeway.texCoord;
+    const LookupTolerance tolerance = lookupTolerance(textures.filtering(), use, footprint, pyramid, hit);
+    const glm::dvec2 texCoord = footprint.texCoord + glm::dvec2(hit.nudge.texCoord) * tolerance.texCoord;
     // The middle level magnifies wherever it may, the end levels minify wherever they may.
-    double nudged = level, upTo = magnified + leeway.finer;
+    double nudged = level, upTo = magnified + tolerance.finer;
     if (hit.nudge.level != 0) {
-        nudged += hit.nudge.level > 0 ? leeway.coarser : -leeway.finer;
-        upTo = leeway.magnifiedFrom - leeway.coarser + (nudged - level);
+        nudged += hit.nudge.level > 0 ? tolerance.coarser : -tolerance.finer;
+        upTo = tolerance.magnifiedFrom - tolerance.coarser + (nudged - level);
     }
-    return recoded(filtered(pyramid, use.sampler, texCoord, nudged, upTo), pyramid, hit.nudge.texel, leeway.codes);
+    return recoded(filtered(pyramid, use.sampler, texCoord, nudged, upTo), pyramid, hit.nudge.texel, tolerance.codes);
 }
 
 bool isUndecided(const Hit& hit, const Textures& textures) {
@@ -75,7 +76,7 @@ bool isUndecided(const Hit& hit, const Textures& textures) {
         const Pyramid& pyramid = textures.pyramid(use.image, transferOf(scenes::TextureSlot(i)));
         const Footprint footprint = footprintOf(use, hit);
         if (isUndecided(use.sampler, footprint, pyramid.sizeTexels(0),
-                        leewayOf(textures.filtering(), use, footprint, pyramid, hit)))
+                        lookupTolerance(textures.filtering(), use, footprint, pyramid, hit)))
             return true;
     }
     return false;

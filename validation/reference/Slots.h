@@ -9,8 +9,9 @@ namespace tessera::reference {
 /// The texel of a material's slot at a hit, linear; 1 in every channel where the slot is empty.
 glm::dvec4 texelOf(scenes::TextureSlot slot, const Hit& hit, const Textures& textures);
 
-/// Whether the hit's texture lookups may return other values within their tolerance (`Leeway`): by hardware always, by
-/// the exact definition where a `nearest` filter has two texels to choose from, or the level of detail two filters.
+/// Whether the hit's texture lookups may return other values within their tolerance (`LookupTolerance`): by hardware
+/// always, by the exact definition where a `nearest` filter has two texels to choose from, or the level of detail two
+/// filters.
 bool isUndecided(const Hit& hit, const Textures& textures);
 
 /// The ends of every tolerance. All surfaces of a pixel are nudged alike, as they share the ray.

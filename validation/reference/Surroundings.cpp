@@ -29,7 +29,7 @@ Surroundings::Surroundings(const scenes::Scene& scene, const Settings& settings)
     showsThroughBodies_ = lights_ = settings.environmentLights && !settings.soloLight && intensity_ > 0.0;
     if (!lights_) return;
     makeDensities();
-    if (scenes::anySpreads(scene, settings.subsurface)) makeIrradiances();
+    if (scenes::anyDiffuses(scene, settings.subsurface)) makeIrradiances();
 }
 
 glm::dvec3 Surroundings::texel(int column, int row) const {

@@ -14,7 +14,7 @@
 namespace tessera::validation {
 namespace {
 
-std::string askedHtml(const Tolerance& tolerance) {
+std::string limitHtml(const Tolerance& tolerance) {
     std::string html;
     const auto add = [&](const std::string& part) { html += (html.empty() ? "" : ", ") + part; };
     if (tolerance.bitEqual) add("equal bits &ge;&nbsp;" + shareHtml(*tolerance.bitEqual));
@@ -121,7 +121,7 @@ std::string pictureId(const Report& report, const std::string& name) {
 std::string pairTableHtml(const CompareRecord& record) {
     std::string html = "<table>\n<thead><tr><th scope=\"col\">Pair</th><th scope=\"col\">Result</th>"
                        "<th scope=\"col\">Equal bits</th><th scope=\"col\">Max rel</th><th scope=\"col\">p99.9 rel</th>"
-                       "<th scope=\"col\">relMSE</th><th scope=\"col\">Bias</th><th scope=\"col\">Asked, and why</th>"
+                       "<th scope=\"col\">relMSE</th><th scope=\"col\">Bias</th><th scope=\"col\">Limit, and why</th>"
                        "</tr></thead>\n<tbody>\n";
     for (std::size_t i = 0; i < record.pairs.size(); ++i) {
         const ComparePair& pair = record.pairs[i];
@@ -136,8 +136,8 @@ std::string pairTableHtml(const CompareRecord& record) {
                                                                {"Bias", figureHtml(figures.bias)}};
         for (const auto& [label, value] : numbers)
             html += fmt::format("<td class=\"number\" data-label=\"{}\"><span>{}</span></td>\n", label, value);
-        html += fmt::format("<td class=\"asked\" data-label=\"Asked\"><div>{}</div></td></tr>\n",
-                            askedHtml(pair.tolerance));
+        html += fmt::format("<td class=\"limit\" data-label=\"Limit\"><div>{}</div></td></tr>\n",
+                            limitHtml(pair.tolerance));
     }
     return html + "</tbody>\n</table>\n";
 }

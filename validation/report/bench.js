@@ -311,7 +311,7 @@
             `<svg viewBox="-24 -8 48 16" stroke="${set.borderColor}" stroke-width="2" fill="${set.borderColor}">` +
             `<path d="M-24 0H24" stroke-dasharray="${set.borderDash.join(" ")}" />${marks[set.pointStyle]}</svg>`;
         const note = document.createElement("p");
-        note.append("Colour tells the technique, shade and dashes its culling method, and the mark the " + data.markKind + ". ");
+        note.append("Colour shows the technique, shade and dashes its culling method, and the mark the " + data.markKind + ". ");
         const shown = kinds.filter((kind) => sets.some((set) => set.curve.mark === kind));
         if (shown.length > 1) {
             note.append("Show or hide all of ");

@@ -93,7 +93,7 @@ std::vector<std::string> StressResult::missed() const {
     if (!figures.fault.empty()) missed.push_back(figures.fault);
     if (!(held() <= tolerance)) {
         const bool isRel = bound == StressBound::WorstRel;
-        missed.push_back(fmt::format("{} is {:.3g}, at most {:g} was asked; at {}",
+        missed.push_back(fmt::format("{} is {:.3g}, at most {:g} is required; at {}",
                                      isRel ? "the worst relative error" : "relMse", held(), tolerance,
                                      isRel ? figures.where : figures.whereRelMse));
     }

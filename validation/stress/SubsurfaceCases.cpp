@@ -24,7 +24,7 @@ using scenes::SubsurfaceMethod;
 constexpr int kSideTexels = 64;
 constexpr double kFloorMetres = 2.2;
 
-frame::FrameSettings spreadSettings(int sideTexels = kSideTexels) {
+frame::FrameSettings diffusionSettings(int sideTexels = kSideTexels) {
     frame::FrameSettings settings;
     settings.sizePixels = {48, 48};
     settings.display = false;
@@ -34,7 +34,7 @@ frame::FrameSettings spreadSettings(int sideTexels = kSideTexels) {
 }
 
 /// A profile of one Gaussian, `sigmaTexels` texels of the floor wide.
-scenes::Subsurface spreading(double sigmaTexels, int sideTexels = kSideTexels) {
+scenes::Subsurface diffusing(double sigmaTexels, int sideTexels = kSideTexels) {
     scenes::Subsurface subsurface;
     subsurface.method = SubsurfaceMethod::TextureSpaceDiffusion;
     const double millimetres = 1e3 * sigmaTexels * kFloorMetres / sideTexels;
@@ -43,7 +43,7 @@ scenes::Subsurface spreading(double sigmaTexels, int sideTexels = kSideTexels) {
 }
 
 /// A floor with one texture, centred and fully in view.
-scenes::Scene spreadFloor(const scenes::Subsurface& subsurface) {
+scenes::Scene diffusionFloor(const scenes::Subsurface& subsurface) {
     scenes::Scene scene = stressFloor();
     for (glm::vec2& texCoord : scene.meshes[0].texCoords[0]) texCoord /= float(kFloorMetres);
     scene.materials[0].subsurface = subsurface;
@@ -67,22 +67,22 @@ constexpr double kWidthsTexels[] = {0.01, 0.1, 0.4, 1.0, 8.0, double(kSideTexels
 std::vector<StressPicture> evenly(std::vector<std::pair<std::string, scenes::Scene>> scenes,
                                   int sideTexels = kSideTexels) {
     std::vector<StressPicture> pictures;
-    scenes::Scene still = spreadFloor({});
-    pictures.push_back({"light that does not spread", underASun(still), spreadSettings(sideTexels)});
-    for (auto& [what, scene] : scenes) pictures.push_back({what, underASun(scene), spreadSettings(sideTexels), 0});
+    scenes::Scene still = diffusionFloor({});
+    pictures.push_back({"light that is not diffused", underASun(still), diffusionSettings(sideTexels)});
+    for (auto& [what, scene] : scenes) pictures.push_back({what, underASun(scene), diffusionSettings(sideTexels), 0});
     return pictures;
 }
 
-std::vector<StressPicture> spreadWidths(StressEffort) {
+std::vector<StressPicture> diffusionWidths(StressEffort) {
     std::vector<std::pair<std::string, scenes::Scene>> scenes;
     for (const double texels : kWidthsTexels)
-        scenes.emplace_back(fmt::format("{:g} texels", texels), spreadFloor(spreading(texels)));
+        scenes.emplace_back(fmt::format("{:g} texels", texels), diffusionFloor(diffusing(texels)));
     return evenly(std::move(scenes));
 }
 
 /// The floor with a further triangle below the visible surface.
 scenes::Scene withTriangles(const std::array<glm::vec3, 3>& cornersOS, const std::array<glm::vec2, 3>& texCoords) {
-    scenes::Scene scene = spreadFloor(spreading(8.0));
+    scenes::Scene scene = diffusionFloor(diffusing(8.0));
     scenes::Mesh& mesh = scene.meshes[0];
     for (std::size_t c = 0; c < 3; ++c) {
         mesh.indices.push_back(std::uint32_t(mesh.positionsOS.size()));
@@ -93,10 +93,10 @@ scenes::Scene withTriangles(const std::array<glm::vec3, 3>& cornersOS, const std
     return scene;
 }
 
-std::vector<StressPicture> spreadShapes(StressEffort) {
+std::vector<StressPicture> diffusionShapes(StressEffort) {
     std::vector<std::pair<std::string, scenes::Scene>> scenes;
     for (const double stretch : {10.0, 100.0}) {
-        scenes::Scene stretched = spreadFloor(spreading(8.0));
+        scenes::Scene stretched = diffusionFloor(diffusing(8.0));
         for (glm::vec2& texCoord : stretched.meshes[0].texCoords[0])
             texCoord.x = float(0.5 + (double(texCoord.x) - 0.5) / stretch);
         scenes.emplace_back(fmt::format("a texture stretched {:g}:1", stretch), std::move(stretched));
@@ -107,21 +107,22 @@ std::vector<StressPicture> spreadShapes(StressEffort) {
     scenes.emplace_back("a triangle without area in the texture alone",
                         withTriangles({low, behind, beside}, {middle, middle, middle}));
     scenes.emplace_back("a chart that is a line", withTriangles({low, behind, beside}, {{{0, 0}, {1, 1}, {0.5, 0.5}}}));
-    scenes::Scene mirrored = spreadFloor(spreading(8.0));
+    scenes::Scene mirrored = diffusionFloor(diffusing(8.0));
     for (glm::vec2& texCoord : mirrored.meshes[0].texCoords[0]) texCoord.x = 1.0f - texCoord.x;
     scenes.emplace_back("a mirrored texture", std::move(mirrored));
-    scenes::Scene dot = spreadFloor(spreading(8.0));
+    scenes::Scene dot = diffusionFloor(diffusing(8.0));
     for (glm::vec2& texCoord : dot.meshes[0].texCoords[0]) texCoord = glm::vec2(0.5f) + 1e-3f * (texCoord - 0.5f);
     scenes.emplace_back("a texture within one texel", std::move(dot));
     return evenly(std::move(scenes));
 }
 
-std::vector<StressPicture> spreadTexels(StressEffort effort) {
+std::vector<StressPicture> diffusionTexels(StressEffort effort) {
     std::vector<StressPicture> pictures;
     for (const int side : {1, 16, 2048}) {
         if (effort == StressEffort::Quick && side > 1024) continue;
-        scenes::Scene scene = spreadFloor(spreading(1.0, side));
-        pictures.push_back({fmt::format("an atlas of {0}x{0} texels", side), underASun(scene), spreadSettings(side)});
+        scenes::Scene scene = diffusionFloor(diffusing(1.0, side));
+        pictures.push_back(
+            {fmt::format("an atlas of {0}x{0} texels", side), underASun(scene), diffusionSettings(side)});
     }
     pictures.insert(pictures.begin(), evenly({}).front());
     for (std::size_t i = 1; i < pictures.size(); ++i) pictures[i].sameAs = 0;
@@ -131,7 +132,7 @@ std::vector<StressPicture> spreadTexels(StressEffort effort) {
 /// A ball lit from behind, so that light is transmitted and diffused. The scene is scaled by `scale`, and scaleMetres
 /// keeps the ball's size in metres.
 scenes::Scene glowingBall(SubsurfaceMethod method, double scale, const glm::dvec3& offsetWS) {
-    scenes::Scene scene = spreadFloor({});
+    scenes::Scene scene = diffusionFloor({});
     scenes::Material flesh = scenes::builtin::lambert("flesh", glm::vec3(0.8f));
     flesh.subsurface.method = method;
     flesh.subsurface.profile = {{400.0f, {0.4f, 0.6f, 0.8f}}, {6400.0f, {0.6f, 0.4f, 0.2f}}};
@@ -153,7 +154,7 @@ scenes::Scene glowingBall(SubsurfaceMethod method, double scale, const glm::dvec
 std::vector<StressPicture> ballsElsewhere(SubsurfaceMethod method) {
     std::vector<StressPicture> pictures;
     const auto add = [&](std::string what, double scale, const glm::dvec3& offsetWS) {
-        StressPicture picture{std::move(what), glowingBall(method, scale, offsetWS), spreadSettings()};
+        StressPicture picture{std::move(what), glowingBall(method, scale, offsetWS), diffusionSettings()};
         pictures.push_back(std::move(picture));
     };
     add("in its place", 1.0, glm::dvec3(0.0));
@@ -163,7 +164,7 @@ std::vector<StressPicture> ballsElsewhere(SubsurfaceMethod method) {
     return pictures;
 }
 
-std::vector<StressPicture> spreadPlaces(StressEffort) {
+std::vector<StressPicture> diffusionPlaces(StressEffort) {
     return ballsElsewhere(SubsurfaceMethod::TextureSpaceDiffusion);
 }
 std::vector<StressPicture> passingPlaces(StressEffort) {
@@ -223,7 +224,7 @@ void measureEnergyOf(StressBench& bench, StressFigures& figures, bool isWide) {
     for (const double texels : kWidthsTexels) add("a spot of light", 0, texels);
     const int many = bench.effort() == StressEffort::Quick ? 1024 : 65536;
     for (const double texels : {0.01, 8.0, double(kFineTexels)}) add(fmt::format("{} lights", many), many, texels);
-    frame::FrameSettings settings = spreadSettings(kFineTexels);
+    frame::FrameSettings settings = diffusionSettings(kFineTexels);
     settings.sizePixels = {96, 96};
     settings.shadows = {scenes::ShadowRequest::Kind::None};
     double whole = 0.0;
@@ -231,9 +232,9 @@ void measureEnergyOf(StressBench& bench, StressFigures& figures, bool isWide) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto& [what, row] = rows[i];
         const auto& [lights, texels] = row;
-        if (lights != wholeOf) whole = sumOf(bench, litInPart(spreadFloor({}), lights), settings, figures);
+        if (lights != wholeOf) whole = sumOf(bench, litInPart(diffusionFloor({}), lights), settings, figures);
         wholeOf = lights;
-        const scenes::Scene scene = litInPart(spreadFloor(spreading(texels, kFineTexels)), lights);
+        const scenes::Scene scene = litInPart(diffusionFloor(diffusing(texels, kFineTexels)), lights);
         const double sum = double(bench.measuredTimes()) * sumOf(bench, scene, settings, figures);
         figures.error(std::abs(sum / whole - 1.0), [&, &what = what] { return what; });
         bench.progress(double(i + 1) / double(rows.size()));
@@ -255,21 +256,22 @@ void addSubsurfaceCases(std::vector<StressCase>& cases) {
         cases.push_back({name, holds, StressBound::WorstRel, tolerance, reason, {}, pictures});
     };
     const char* const even = "weights of a Gaussian are divided by their sum: a rounding for each tap";
-    add("subsurface/width", "even light spread by a hundredth of a texel to ten times the atlas stays as it is", 1e-5,
-        even, &spreadWidths);
+    add("subsurface/width", "even light diffused by a hundredth of a texel to ten times the atlas stays as it is", 1e-5,
+        even, &diffusionWidths);
     add("subsurface/shape",
-        "even light spread over stretched and mirrored textures and charts without area stays as it is", 1e-5, even,
-        &spreadShapes);
-    add("subsurface/texels", "even light spread in atlases of one to four million texels stays as it is", 1e-5, even,
-        &spreadTexels);
+        "even light diffused over stretched and mirrored textures and charts without area stays as it is", 1e-5, even,
+        &diffusionShapes);
+    add("subsurface/texels", "even light diffused in atlases of one to four million texels stays as it is", 1e-5, even,
+        &diffusionTexels);
     const auto addPlace = [&cases](const char* name, const char* holds, double relMse, const char* reason,
                                    auto pictures) {
         cases.push_back({name, holds, StressBound::RelMse, relMse, reason, {}, pictures});
     };
     const char* const exact = "fp32 lighting of the same surface: measured 1e-13";
-    addPlace("subsurface/place", "spread light of scenes 1e-4 to 1e4 times as large and 1000 km from the origin", 2e-4,
+    addPlace("subsurface/place", "diffused light of scenes 1e-4 to 1e4 times as large and 1000 km from the origin",
+             2e-4,
              "distances along the surface are not those through the air, and the reference has noise: measured 3e-5",
-             &spreadPlaces);
+             &diffusionPlaces);
     addPlace("subsurface/passing",
              "light that passes through bodies 1e-4 to 1e4 times as large and 1000 km from the origin", 1e-11, exact,
              &passingPlaces);
@@ -277,7 +279,7 @@ void addSubsurfaceCases(std::vector<StressCase>& cases) {
              1e-11, exact, &wrappedPlaces);
     cases.push_back(
         {"subsurface/energy",
-         "a spot of light and 65,536 lights, spread by a hundredth of a texel to 8 of 256 texels, keep their "
+         "a spot of light and 65,536 lights, diffused by a hundredth of a texel to 8 of 256 texels, keep their "
          "energy",
          StressBound::WorstRel,
          1e-2,
@@ -285,7 +287,7 @@ void addSubsurfaceCases(std::vector<StressCase>& cases) {
          &measureEnergy,
          {}});
     cases.push_back({"subsurface/wide_energy",
-                     "light spread by a quarter of the floor to ten times the atlas nearly keeps its energy",
+                     "light diffused by a quarter of the floor to ten times the atlas nearly keeps its energy",
                      StressBound::WorstRel,
                      0.1,
                      "light is divided by the share of the profile that lies on the floor, so that even light stays "

@@ -7,7 +7,7 @@ namespace tessera::viewer {
 /// normal.
 inline void changeModel(scenes::Material& material, scenes::MaterialModel model) {
     material.model = model;
-    if (!scenes::takesMasking(model, material.masking)) material.masking = scenes::Masking::Walter;
+    if (!scenes::supportsMasking(model, material.masking)) material.masking = scenes::Masking::Walter;
 }
 
 } // namespace tessera::viewer

@@ -32,7 +32,7 @@ std::string endOf(const std::string& text) {
 }
 
 /// Handles Up, Down and Tab in the field.
-int heedKey(ImGuiInputTextCallbackData* data) {
+int handleKey(ImGuiInputTextCallbackData* data) {
     FileDialog& dialog = *static_cast<FileDialog*>(data->UserData);
     dialog.typeInField({data->Buf, std::size_t(data->BufTextLen)});
     if (data->EventFlag == ImGuiInputTextFlags_CallbackHistory) {
@@ -150,7 +150,7 @@ bool pathField(FileDialog& dialog) {
     const char* const hint = dialog.purpose() == Purpose::Open ? "name, path or ~/path; Tab completes, arrows choose"
                                                                : "name or path; Tab completes, arrows choose";
     const bool isEntered =
-        ImGui::InputTextWithHint("##path", hint, buffer.data(), buffer.size(), flags, heedKey, &dialog);
+        ImGui::InputTextWithHint("##path", hint, buffer.data(), buffer.size(), flags, handleKey, &dialog);
     dialog.noteKeyboard(ImGui::IsItemActive());
     dialog.typeInField(buffer.data());
     return isEntered;
@@ -159,14 +159,14 @@ bool pathField(FileDialog& dialog) {
 /// Buttons that open or save the chosen file; replacing an existing file has its own button.
 void answerButtons(State& state, bool isEntered) {
     FileDialog& dialog = *state.files;
-    const bool asksToReplace = dialog.asksToReplace();
+    const bool confirmsReplacing = dialog.confirmsReplacing();
     const char* const label = dialog.purpose() == Purpose::Open ? "Open (Enter)" : "Save (Enter)";
     bool isAccepted = ImGui::Button(label) || isEntered;
     tip(dialog.purpose() == Purpose::Open ? "Opens the file, or goes into the folder"
                                           : "Saves under this name: .json the scene, .png or .exr the picture");
-    bool replaces = asksToReplace && isEntered && ImGui::GetIO().KeyCtrl;
+    bool replaces = confirmsReplacing && isEntered && ImGui::GetIO().KeyCtrl;
     ImGui::SameLine();
-    if (asksToReplace) {
+    if (confirmsReplacing) {
         if (ImGui::Button("Replace (Ctrl+Enter)")) isAccepted = replaces = true;
         tip("Writes over the file that is there");
         ImGui::SameLine();
@@ -184,10 +184,10 @@ void answerButtons(State& state, bool isEntered) {
 void fileDialog(State& state, float scale) {
     constexpr const char* kId = "###files";
     constexpr float kWidth = 640.0f, kHeight = 480.0f;
-    const bool isAsked = state.files && !state.question;
+    const bool isShown = state.files && !state.question;
     const char* const title =
         state.files && state.files->purpose() == Purpose::Save ? "Save as###files" : "Open###files";
-    if (isAsked && !ImGui::IsPopupOpen(kId)) ImGui::OpenPopup(kId);
+    if (isShown && !ImGui::IsPopupOpen(kId)) ImGui::OpenPopup(kId);
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({std::min(kWidth * scale, display.x), std::min(kHeight * scale, display.y)});
@@ -198,7 +198,7 @@ void fileDialog(State& state, float scale) {
         if (state.files) state.files->noteKeyboard(false);
         return;
     }
-    if (!isAsked) {
+    if (!isShown) {
         ImGui::CloseCurrentPopup();
     } else {
         FileDialog& dialog = *state.files;

@@ -132,8 +132,8 @@ std::vector<std::string> statusParts(const State& state, const Facts& facts) {
     std::vector<std::string> parts;
     if (!state.loading.empty())
         parts.emplace_back("loading ...");
-    else if (facts.spreading)
-        parts.push_back(spreadText(*facts.spreading));
+    else if (facts.diffusion)
+        parts.push_back(diffusionText(*facts.diffusion));
     if (state.magnification.isOn())
         parts.push_back(fmt::format("pixels x {} (Ctrl+0: all)", state.magnification.times));
     if (facts.isCancelled) parts.emplace_back("cancelled (Enter: draw on)");
@@ -275,7 +275,8 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
         drawResource(state, facts, area);
         drawDragText(state, area);
         drawPanelEdge(state, area, scale);
-        if (facts.told()) drawProgress(*facts.told(), area, state.inspectorBox, scale, *ImGui::GetBackgroundDrawList());
+        if (facts.shownProgress())
+            drawProgress(*facts.shownProgress(), area, state.inspectorBox, scale, *ImGui::GetBackgroundDrawList());
         notices(state, area, scale);
     }
     if (state.showsHelp) helpOverlay(state, scale);

@@ -17,8 +17,8 @@ constexpr float kTexelPoints = 8.0f, kBoxPad = 6.0f, kBesidePoints = 24.0f;
 /// Start of a box beside a point: after it, or before it if there is no room after it; inside the image.
 float besidePoint(float point, float size, float begin, float end, float beside) {
     const float behind = point + beside, before = point - beside - size;
-    const float wished = behind + size <= end || before < begin ? behind : before;
-    return std::clamp(wished, begin, std::max(begin, end - size));
+    const float preferred = behind + size <= end || before < begin ? behind : before;
+    return std::clamp(preferred, begin, std::max(begin, end - size));
 }
 
 void outline(ImDrawList& list, const glm::vec2& corner, float size, float width) {

@@ -93,7 +93,7 @@ bool keyRows(scenes::Light& light, const scenes::LightKeyedInfo& member, double 
         addKey(light, member.member, timeSeconds);
         changed = true;
     }
-    tip("A key of what the light is now; the panel Animation chooses the time");
+    tip("A key of the light's present values; the panel Animation chooses the time");
     if (const scenes::LightKeys* keys = keysOf(light, member.member)) {
         std::optional<std::size_t> removed;
         ImGuiListClipper clipper; // files may have many

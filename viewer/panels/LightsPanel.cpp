@@ -94,7 +94,7 @@ bool sizeRow(scenes::Light& light, double sceneSizeMetres) {
     const scenes::LightParameter* const size = scenes::sizeParameter(info);
     if (size == nullptr) return false;
     const bool changed = lightParameterRow(*size, light, kMostRadiusShare * sceneSizeMetres);
-    tip(info.isArea ? "Of what shines, and softens its shadows" : "Softens the light's shadows");
+    tip(info.isArea ? "Size of the emitter, which softens shadows" : "Softens the light's shadows");
     return changed;
 }
 

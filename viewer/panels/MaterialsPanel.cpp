@@ -73,7 +73,7 @@ bool parameterRow(Material& material, const scenes::MaterialParameter& parameter
 
 bool parameterRow(Material& material, const scenes::MaterialParameter& parameter, scenes::Masking Material::*member) {
     return chooseNamed(parameter.label, material.*member,
-                       [&](scenes::Masking masking) { return scenes::takesMasking(material.model, masking); });
+                       [&](scenes::Masking masking) { return scenes::supportsMasking(material.model, masking); });
 }
 
 bool modelRows(Material& material) {
@@ -122,10 +122,10 @@ bool subsurfaceRows(scenes::Subsurface& subsurface) {
         changed |=
             logarithmicSlider("Scale", subsurface.scaleMetres, kLeastScaleShown, kMostScaleShown, "%.3g m a metre");
     }
-    if (method.spreads) {
+    if (method.diffuses) {
         changed |= profileRow(subsurface);
         changed |= slider("Albedo before", subsurface.preScatterShare, 0.0f, 1.0f);
-        tip("What acts before light spreads is blurred with it; the rest stays sharp");
+        tip("The part of the albedo that acts before diffusion is blurred; the rest stays sharp");
     }
     return changed;
 }

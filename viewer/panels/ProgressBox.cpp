@@ -60,9 +60,9 @@ std::string progressText(const Progress& progress, float widthPixels) {
 }
 
 /// In percent of tiles, so that even a single object shows progress.
-std::string spreadText(const engine::SpreadProgress& progress) {
+std::string diffusionText(const engine::DiffusionProgress& progress) {
     const std::size_t percent = progress.tiles > 0 ? 100 * progress.doneTiles / progress.tiles : 0;
-    return fmt::format("spreading light: {} of {} object{}, {} %", progress.doneObjects, progress.objects,
+    return fmt::format("diffusing light: {} of {} object{}, {} %", progress.doneObjects, progress.objects,
                        progress.objects == 1 ? "" : "s", percent);
 }
 

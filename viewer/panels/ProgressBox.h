@@ -18,7 +18,7 @@ void drawProgress(const Progress& progress, const PictureArea& area, const std::
 /// is shortened independently of the fraction.
 std::string progressText(const Progress& progress, float widthPixels);
 
-/// "spreading light: 1 of 3 objects, 45 %"
-std::string spreadText(const engine::SpreadProgress& progress);
+/// "diffusing light: 1 of 3 objects, 45 %"
+std::string diffusionText(const engine::DiffusionProgress& progress);
 
 } // namespace tessera::viewer

@@ -27,7 +27,7 @@ void savePanel(State& state) {
     if (ImGui::Button("Revert", {half, 0.0f})) revert(state);
     ImGui::EndDisabled();
     tip("Back to the scene as it was opened or saved last");
-    if (ImGui::Button("Save as ... (Ctrl+Shift+S)", {-FLT_MIN, 0.0f})) state.requests.askWhereToSave = true;
+    if (ImGui::Button("Save as ... (Ctrl+Shift+S)", {-FLT_MIN, 0.0f})) state.requests.showSaveDialog = true;
     tip("The scene or the picture, in a folder and under a name of your choice");
     ImGui::SetNextItemWidth(-FLT_MIN);
     std::string& command = state.command;

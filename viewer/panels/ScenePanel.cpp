@@ -69,7 +69,7 @@ void variantList(State& state) {
 
 void scenePanel(State& state, const Facts& facts) {
     sceneList(state, facts);
-    if (ImGui::Button("Open ... (Ctrl+O)", {-FLT_MIN, 0.0f})) state.requests.askWhatToOpen = true;
+    if (ImGui::Button("Open ... (Ctrl+O)", {-FLT_MIN, 0.0f})) state.requests.showOpenDialog = true;
     tip("A scene, a model or an environment of your own");
     if (!state.loading.empty()) {
         const Progress loading{"Loading " + shortName(state.loading), {}, false};

@@ -31,7 +31,7 @@ bool show(const Setting& setting, const engine::ChoiceKind& kind, Look& look) {
     for (const Entry& entry : entries) {
         engine::ViewRequest tried = look;
         setting.read(tried, entry.name);
-        choices.push_back({entry.label, entry.meaning, setting.isTaken(tried)});
+        choices.push_back({entry.label, entry.meaning, setting.isSupported(tried)});
     }
     const std::string now = setting.text(look);
     const auto chosen = std::size_t(std::ranges::find(entries, now, &Entry::name) - entries.begin());
@@ -92,7 +92,7 @@ void settingRows(State& state, engine::SettingPanel panel) {
     Look& look = state.active();
     const scenes::Scene* const scene = state.open ? &state.open->scene() : nullptr;
     for (const Setting& setting : engine::settingTable()) {
-        if (setting.panel != panel || !setting.isHeededBy(look.technique)) continue;
+        if (setting.panel != panel || !setting.isUsedBy(look.technique)) continue;
         const std::string idle = setting.whyIdle(look, scene);
         ImGui::BeginDisabled(!idle.empty());
         const bool isChosen =
@@ -150,7 +150,7 @@ void environmentList(State& state, const Facts& facts) {
         if (*picked < maps.size())
             state.requests.environment = maps[*picked].name;
         else
-            state.requests.askWhatToOpen = true;
+            state.requests.showOpenDialog = true;
     }
     ImGui::EndDisabled();
     loadingLine(state, facts);

@@ -62,10 +62,10 @@ void lightTable(State& state, const engine::DrawnShadows& shadows) {
 }
 
 /// Whether the filter uses light sizes, but none of the lights has one.
-bool hasNoSizeToHeed(State& state, const engine::DrawnShadows& shadows) {
+bool lacksLightSizes(State& state, const engine::DrawnShadows& shadows) {
     const frame::ShadowFilterInfo& filter = infoOf(state.active().settings.shadowFilter);
     const std::vector<scenes::Light>& lights = state.open->scene().lights;
-    return filter.usesMaps && filter.heedsSizes &&
+    return filter.usesMaps && filter.usesSizes &&
            std::ranges::none_of(shadows.lights, [&](const engine::DrawnShadows::Light& light) {
                return std::size_t(light.sceneIndex) < lights.size() &&
                       scenes::hasSize(lights[std::size_t(light.sceneIndex)]);
@@ -87,7 +87,7 @@ void shadowRows(State& state, const engine::DrawnShadows& shadows) {
                                  shadows.faces - shadows.drawnFaces));
         tip("In the latest frame; what has not changed is kept");
     }
-    if (hasNoSizeToHeed(state, shadows))
+    if (lacksLightSizes(state, shadows))
         paragraph(fmt::format("None of these lights has a size, so that {} looks up one texel, as {} does.",
                               infoOf(state.active().settings.shadowFilter).name,
                               infoOf(frame::ShadowFilter::Hard).name));

@@ -48,14 +48,14 @@ std::string hookText(std::span<const scenes::HookValue> values) {
     return text;
 }
 
-std::string importText(const scenes::ImportWishes& wishes) {
+std::string importText(const scenes::ImportOptions& importOptions) {
     std::string text;
-    if (wishes.variant) text += " --variant " + shellWord(*wishes.variant);
-    if (wishes.lightUnits)
-        text += fmt::format(" --light-units {}", scenes::kLightUnits[std::size_t(*wishes.lightUnits)].name);
-    if (wishes.objColours != scenes::ObjColours::Srgb)
-        text += fmt::format(" --obj-colours {}", scenes::kObjColours[std::size_t(wishes.objColours)].name);
-    if (wishes.isStrict) text += " --strict";
+    if (importOptions.variant) text += " --variant " + shellWord(*importOptions.variant);
+    if (importOptions.lightUnits)
+        text += fmt::format(" --light-units {}", scenes::kLightUnits[std::size_t(*importOptions.lightUnits)].name);
+    if (importOptions.objColours != scenes::ObjColours::Srgb)
+        text += fmt::format(" --obj-colours {}", scenes::kObjColours[std::size_t(importOptions.objColours)].name);
+    if (importOptions.isStrict) text += " --strict";
     return text;
 }
 

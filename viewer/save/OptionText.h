@@ -4,7 +4,7 @@
 
 #include "scenes/CameraChange.h"
 #include "scenes/Hook.h"
-#include "scenes/ImportWishes.h"
+#include "scenes/ImportOptions.h"
 
 /// Parts of a command line as text for a shell.
 namespace tessera::viewer {
@@ -20,6 +20,6 @@ std::string backgroundText(const std::optional<glm::dvec3>& radiance);
 /// The values of a hook's parameters as options: " --hook wind=1.5". Empty if there are none.
 std::string hookText(std::span<const scenes::HookValue> values);
 /// Import settings as options: " --variant 'deep red' --strict". Empty if none is requested.
-std::string importText(const scenes::ImportWishes& wishes);
+std::string importText(const scenes::ImportOptions& importOptions);
 
 } // namespace tessera::viewer

@@ -11,7 +11,7 @@ namespace {
 std::string options(const RenderRequest& request, const scenes::Scene& scene) {
     std::string text;
     engine::ViewRequest byItself;
-    engine::takeWishes(scene, request.source, byItself);
+    engine::applyRequestedOptions(scene, request.source, byItself);
     for (const engine::Setting& setting : engine::settingTable())
         if (!setting.value.equal(request, byItself))
             text += fmt::format(" {} {}", setting.flag, shellWord(setting.text(request, &scene)));

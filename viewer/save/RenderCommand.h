@@ -5,7 +5,7 @@
 
 #include "engine/Settings.h"
 #include "scenes/CameraChange.h"
-#include "scenes/ImportWishes.h"
+#include "scenes/ImportOptions.h"
 
 namespace tessera::viewer {
 
@@ -19,7 +19,7 @@ struct RenderRequest : engine::ViewRequest {
     std::optional<glm::dvec3> background;      ///< the same
     std::optional<std::string> clip;           ///< the same
     std::vector<scenes::HookValue> hookValues; ///< the same
-    scenes::ImportWishes import;               ///< the same
+    scenes::ImportOptions import;              ///< the same
     scenes::CameraChange pose;                 ///< of the camera that the settings select
 };
 

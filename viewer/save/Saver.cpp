@@ -55,7 +55,7 @@ std::string Saver::freeName(const char* ending) const {
     return freePath(savedStem(state_.open->source()), ending).string();
 }
 
-void Saver::tell(const std::string& path) {
+void Saver::report(const std::string& path) {
     state_.notice = {"Saved " + std::filesystem::absolute(path).string(), false};
     log_.line("saved " + path);
 }
@@ -70,7 +70,7 @@ void Saver::picture(glm::ivec2 sizePixels, const std::string& path) {
     if (extensionOf(path) == ".exr") {
         Look look = drawnLook(state_, state_.activeSide);
         writeExr(path, engine::toPicture(rendered(look, sizePixels, false)));
-        return tell(path);
+        return report(path);
     }
     std::vector<DisplayImage> sides;
     for (int side = 0; side < state_.sides(); ++side) {
@@ -80,12 +80,12 @@ void Saver::picture(glm::ivec2 sizePixels, const std::string& path) {
                                                  look.technique, look.settings.view));
     }
     writePng(path, besideOneAnother(sides));
-    tell(path);
+    report(path);
 }
 
 void Saver::scene(const std::string& path) {
     saveOpenScene(state_, path);
-    tell(path);
+    report(path);
 }
 
 std::string Saver::command(glm::ivec2 sizePixels) {
@@ -116,7 +116,7 @@ void Saver::trace() {
     for (const FrameTimes& frame : state_.timings.frames()) frames.push_back(traced(frame));
     const std::string path = freeName(".trace.json");
     writeFileAtomically(path, chromeTrace(frames, screen_.capabilities().renderer));
-    tell(path);
+    report(path);
 }
 
 } // namespace tessera::viewer

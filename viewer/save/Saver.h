@@ -24,7 +24,7 @@ public:
 
 private:
     engine::RenderedFrame rendered(Look& look, glm::ivec2 sizePixels, bool display);
-    void tell(const std::string& path);
+    void report(const std::string& path);
 
     State& state_;
     Screen& screen_;

@@ -205,7 +205,7 @@ void Controls::scroll(const InputEvent& event, State& state, const PictureArea& 
 }
 
 void Controls::press(const InputEvent& event, State& state, const PictureArea& area, const Claims& claims) {
-    if (drag_ != Drag::None || claims.mouse || state.isAsking() || !area.contains(event.position)) return;
+    if (drag_ != Drag::None || claims.mouse || state.hasDialog() || !area.contains(event.position)) return;
     button_ = event.code;
     pressedAt_ = event.position;
     const bool isOfPicture = !isAtPanelEdge(state, area, event.position) && !isAtDivider(state, area, event.position);
@@ -350,7 +350,7 @@ void Controls::key(const InputEvent& event, State& state, const Claims& claims) 
     // Key releases are processed even while text is typed, so that no key stays held.
     bool* held = flyKey(flying_, event.code);
     const bool commands = (event.modifiers & (GLFW_MOD_CONTROL | GLFW_MOD_ALT)) != 0;
-    if (held != nullptr) *held = event.down && !claims.keyboard && !commands && !state.isAsking();
+    if (held != nullptr) *held = event.down && !claims.keyboard && !commands && !state.hasDialog();
     if (!event.down || event.repeated) return;
     // Keys that abbreviate words are identified by their letter, others by their position: W A S D.
     const int written = event.letter != 0 ? event.letter : event.code;

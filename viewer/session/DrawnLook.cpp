@@ -72,7 +72,7 @@ std::array<std::string, 2> sideNames(const Look& left, const Look& right, const 
         if (isNamed || setting.isShared || setting.value.equal(left, right)) continue;
         if (std::holds_alternative<engine::SizeKind>(setting.value.kind)) continue; // of pending images
         for (std::size_t side : {0u, 1u})
-            if (setting.isHeededBy(looks[side]->technique))
+            if (setting.isUsedBy(looks[side]->technique))
                 others[side] += fmt::format(", {} {}", setting.name, setting.text(*looks[side]));
     }
     const bool differs = left.technique != right.technique || !others[0].empty() || !others[1].empty();

@@ -14,19 +14,19 @@ namespace {
 
 /// `isOver` is polled during computation and filtering, from any thread. Once it holds, the result is useless.
 ChosenEnvironment loaded(const std::string& name, EnvironmentProgress& progress, const std::function<bool()>& isOver) {
-    const auto tell = [&](bool isFiltering, double done) {
+    const auto report = [&](bool isFiltering, double done) {
         if (isOver()) throw scenes::LoadStopped();
-        progress.tell({isFiltering, done});
+        progress.report({isFiltering, done});
     };
     ChosenEnvironment chosen;
     chosen.name = name;
     try {
         scenes::LoadLedger ledger;
-        ledger.tellEnvironment([&tell](double done) { tell(false, done); });
+        ledger.reportEnvironment([&report](double done) { report(false, done); });
         chosen.environment = scenes::environmentCalled(name, ledger, chosen.warnings);
         if (chosen.environment)
             chosen.filtered = std::make_shared<frame::FilteredEnvironment>(frame::cachedEnvironment(
-                chosen.environment->map, frame::cacheFolder(), [&tell](double done) { tell(true, done); }));
+                chosen.environment->map, frame::cacheFolder(), [&report](double done) { report(true, done); }));
     } catch (const std::bad_alloc&) {
         chosen.error = name + ": the memory is not enough for it; close other programs or choose a smaller picture";
     } catch (const std::exception& error) {

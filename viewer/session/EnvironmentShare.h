@@ -14,26 +14,26 @@ struct EnvironmentShare {
 /// The latest progress, readable from other threads.
 class EnvironmentProgress {
 public:
-    void begin() { told_ = kNothing; }
+    void begin() { latest_ = kNothing; }
     /// Raises the progress to the reported value. Reports of several threads may arrive out of order.
-    void tell(const EnvironmentShare& share) {
-        const double told = share.done + (share.isFiltering ? kFiltering : 0.0);
-        double known = told_;
-        while (told > known && !told_.compare_exchange_weak(known, told)) {
+    void report(const EnvironmentShare& share) {
+        const double value = share.done + (share.isFiltering ? kFiltering : 0.0);
+        double known = latest_;
+        while (value > known && !latest_.compare_exchange_weak(known, value)) {
         }
     }
     /// None if neither has begun.
     std::optional<EnvironmentShare> latest() const {
-        const double told = told_;
-        if (told < 0.0) return std::nullopt;
-        const bool isFiltering = told >= kFiltering;
-        return EnvironmentShare{isFiltering, isFiltering ? told - kFiltering : told};
+        const double value = latest_;
+        if (value < 0.0) return std::nullopt;
+        const bool isFiltering = value >= kFiltering;
+        return EnvironmentShare{isFiltering, isFiltering ? value - kFiltering : value};
     }
 
 private:
     static constexpr double kNothing = -1.0;
     static constexpr double kFiltering = 2.0; ///< added to filtering progress, to exceed all computation progress
-    std::atomic<double> told_ = kNothing;
+    std::atomic<double> latest_ = kNothing;
 };
 
 } // namespace tessera::viewer

@@ -32,16 +32,18 @@ struct Facts {
     std::array<std::optional<engine::DrawnShadows>, 2> shadows;   ///< of the same images
     std::map<std::string, std::uint32_t, std::less<>> thumbnails; ///< GL texture names by built-in scene, on request
     bool isPreparing = false;           ///< the next frame is the first of its kind, and may compile shaders
-    bool isSpreading = false;           ///< the next frame recomputes the diffused irradiance
+    bool isDiffusing = false;           ///< the next frame recomputes the diffused irradiance
     std::optional<Progress> progress;   ///< of the image
     std::optional<Progress> background; ///< of a load in the background
     /// Whether the load takes precedence over the image, which it will replace, in the progress box and for Esc.
     bool isLoadFirst() const { return background && (background->canCancel || !progress); }
-    const std::optional<Progress>& told() const { return isLoadFirst() ? background : progress; } ///< in that box
-    bool isCancelled = false;                        ///< the image stays as far as it is drawn
-    std::optional<engine::SpreadProgress> spreading; ///< of irradiance that is diffused in slices
-    double ms = 0.0;                                 ///< of the latest frame, all sides
-    double scale = 0.0;                              ///< its sides relative to those of the window, in pixels
+    const std::optional<Progress>& shownProgress() const {
+        return isLoadFirst() ? background : progress;
+    }                                                   ///< in that box
+    bool isCancelled = false;                           ///< the image stays as far as it is drawn
+    std::optional<engine::DiffusionProgress> diffusion; ///< of irradiance that is diffused in slices
+    double ms = 0.0;                                    ///< of the latest frame, all sides
+    double scale = 0.0;                                 ///< its sides relative to those of the window, in pixels
     glm::ivec2 sizePixels{0};
     std::optional<double> picturesPerSecond; ///< while something moves
     std::string renderer;                    ///< the driver's name

@@ -123,7 +123,7 @@ void FileDialog::list() {
     entries_.clear();
     chosen_.reset();
     isMoved_ = true;
-    isChosenByHand_ = asksToReplace_ = false;
+    isChosenByHand_ = confirmsReplacing_ = false;
     fault_.clear();
     const std::size_t nameBegin = folderPart(text_);
     const std::string begin = purpose_ == Purpose::Open ? text_.substr(nameBegin) : std::string();
@@ -164,7 +164,7 @@ void FileDialog::choose(std::size_t entry) {
     if (entry >= entries_.size()) return;
     chosen_ = entry;
     isChosenByHand_ = true;
-    asksToReplace_ = false;
+    confirmsReplacing_ = false;
 }
 
 void FileDialog::complete() {
@@ -241,13 +241,13 @@ std::optional<std::string> FileDialog::acceptText(bool replaces) {
 std::optional<std::string> FileDialog::acceptName(bool replaces) {
     const Path place = resolved(text_);
     fault_.clear();
-    asksToReplace_ = false;
+    confirmsReplacing_ = false;
     if (!isOffered(place, purpose_)) {
         fault_ = fmt::format("A name ends in one of {}", savedEndings());
     } else if (!isFolderAt(place.parent_path())) {
         fault_ = fmt::format("{} is no folder", place.parent_path().string());
     } else if (isThere(place) && !replaces) {
-        asksToReplace_ = true;
+        confirmsReplacing_ = true;
         fault_ = fmt::format("{} is there already", place.filename().string());
     } else {
         return place.string();

@@ -45,7 +45,7 @@ public:
     /// Why the folder cannot be read, or what is wrong with the text; empty: nothing.
     const std::string& fault() const { return fault_; }
     /// Whether the named file exists; accept() then needs `replaces` to overwrite it.
-    bool asksToReplace() const { return asksToReplace_; }
+    bool confirmsReplacing() const { return confirmsReplacing_; }
 
     /// Whether keys must wait for the dialog's field. It gets the keyboard some frames after the dialog opens, and
     /// again after Enter or a click; a key pressed in between would be lost. Keys wait at most kMostWaits frames,
@@ -96,7 +96,7 @@ private:
     std::optional<std::size_t> chosen_;
     bool isChosenByHand_ = false; ///< takes precedence over the text
     bool isMoved_ = false;        ///< takeMoved()
-    bool asksToReplace_ = false;
+    bool confirmsReplacing_ = false;
     bool hasKeyboard_ = false;
     int waits_ = 0; ///< frames since the field lost the keyboard
 };

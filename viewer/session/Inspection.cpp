@@ -41,7 +41,7 @@ glm::ivec2 pixelAt(const glm::vec2& place, glm::ivec2 sizePixels) {
 
 std::optional<std::size_t> visitsOf(const InspectedSurface& surface, std::optional<std::size_t> ofOpaque) {
     if (surface.isTransparent || surface.mayBeMoved || !ofOpaque) return std::nullopt;
-    return surface.takesLight ? *ofOpaque : 0;
+    return surface.isLit ? *ofOpaque : 0;
 }
 
 std::vector<std::string> inspectionLines(const Inspection& inspection) {
@@ -106,7 +106,7 @@ std::optional<InspectedSurface> surfaceAt(const scenes::Scene& scene, const scen
     surface.faceNormalWS = faceNormalWS;
     surface.reachingLights = lightsReaching(scene.lights, picked->positionWS, timeSeconds);
     surface.isTransparent = scenes::isTransparent(material);
-    surface.takesLight = scenes::infoOf(material.model).isLit;
+    surface.isLit = scenes::infoOf(material.model).isLit;
     surface.mayBeMoved = scene.hook && scene.hook->movesVertices;
     return surface;
 }

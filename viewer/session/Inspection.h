@@ -30,7 +30,7 @@ struct InspectedSurface {
     glm::dvec3 faceNormalWS{0.0};    ///< of the triangle, towards the viewer
     std::size_t reachingLights = 0;  ///< lights that are on and reach it by range and cone, occlusion ignored
     bool isTransparent = false;
-    bool takesLight = true;
+    bool isLit = true;
     bool mayBeMoved = false; ///< the scene's hook moves vertices: the image may show another surface
 };
 

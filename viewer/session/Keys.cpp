@@ -144,10 +144,10 @@ constexpr KeyBinding kBindings[] = {
      [](State& s) { s.requests.savePng = true; }, "Files"},
     {GLFW_KEY_F12, kShift, "", "", [](State& s) { s.requests.saveExr = true; }},
     {GLFW_KEY_O, kControl, "Ctrl+O", "open a scene or an environment",
-     [](State& s) { s.requests.askWhatToOpen = true; }},
+     [](State& s) { s.requests.showOpenDialog = true; }},
     {GLFW_KEY_S, kControl, "Ctrl+S", "save the scene with its edits", [](State& s) { s.requests.saveScene = true; }},
     {GLFW_KEY_S, kControl | kShift, "Ctrl+Shift+S", "save the scene or the picture under a name of your choice",
-     [](State& s) { s.requests.askWhereToSave = true; }},
+     [](State& s) { s.requests.showSaveDialog = true; }},
     {GLFW_KEY_C, kControl, "Ctrl+C", "copy the command that renders this picture",
      [](State& s) { s.requests.copyCommand = true; }},
 };

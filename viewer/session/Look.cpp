@@ -4,7 +4,7 @@ namespace tessera::viewer {
 
 Look possible(Look look) {
     for (const engine::Setting& setting : engine::settingTable()) {
-        if (!setting.isTaken(look)) {
+        if (!setting.isSupported(look)) {
             if (setting.comesBack) look.aside.insert_or_assign(std::string(setting.key), setting.text(look));
             setting.reset(look);
         }
@@ -12,14 +12,14 @@ Look possible(Look look) {
         if (aside == look.aside.end() || !setting.isDefault(look)) continue;
         engine::ViewRequest tried = look;
         setting.read(tried, aside->second);
-        if (!setting.isTaken(tried)) continue;
+        if (!setting.isSupported(tried)) continue;
         setting.value.copy(look, tried);
         look.aside.erase(aside);
     }
     return look;
 }
 
-Look asked(Look look) {
+Look requested(Look look) {
     for (const engine::Setting& setting : engine::settingTable()) {
         const auto aside = look.aside.find(setting.key);
         if (aside != look.aside.end() && setting.isDefault(look)) setting.read(look, aside->second);
@@ -40,8 +40,8 @@ void setEnvironmentSeenBy(Look& look, const scenes::EnvironmentView& view) {
 }
 
 Look rebased(const Look& now, const Look& before, const Look& base) {
-    const Look chosen = asked(now), begun = asked(before);
-    Look result = asked(base);
+    const Look chosen = requested(now), begun = requested(before);
+    Look result = requested(base);
     for (const engine::Setting& setting : engine::settingTable())
         if (!setting.isOfScene && !setting.value.equal(chosen, begun)) setting.value.copy(result, chosen);
     return possible(result);

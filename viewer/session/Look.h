@@ -20,7 +20,7 @@ struct Look : engine::ViewRequest {
 Look possible(Look look);
 
 /// The look as requested, with values that its technique does not support.
-Look asked(Look look);
+Look requested(Look look);
 
 /// How a look rotates and scales the scene's environment, which is an edit of the scene: OpenScene::environmentView().
 scenes::EnvironmentView environmentSeenBy(const Look& look);

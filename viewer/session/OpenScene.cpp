@@ -28,8 +28,8 @@ OpenScene::OpenScene(std::string source, const scenes::LoadOptions& load, scenes
 
 bool OpenScene::showTime(double timeSeconds) {
     timeSeconds = std::min(timeSeconds, clipSeconds_);
-    if (!scenes::isPlaying(scene_) || timeSeconds == askedSeconds_) return false;
-    askedSeconds_ = timeSeconds;
+    if (!scenes::isPlaying(scene_) || timeSeconds == requestedSeconds_) return false;
+    requestedSeconds_ = timeSeconds;
     if (timeSeconds == shownSeconds_) return false; // after a refused pose
     try {
         pose(timeSeconds);
@@ -65,7 +65,7 @@ void OpenScene::playClip(const std::string& nameOrNumber) {
     }
     load_.clip = scene_.options.clip = nameOrNumber;
     clipSeconds_ = scenes::playingSeconds(scene_.rig);
-    askedSeconds_ = shownSeconds_ = 0.0;
+    requestedSeconds_ = shownSeconds_ = 0.0;
     ++revision_;
     ++geometryRevision_;
     ++materialRevision_;

@@ -176,9 +176,9 @@ private:
     std::uint64_t revision_ = 0;
     std::uint64_t edits_ = 0, pictureEdits_ = 0;
     History history_;
-    double clipSeconds_;        ///< see clipSeconds()
-    double askedSeconds_ = 0.0; ///< requested time of the clip, whose pose may have been refused
-    double shownSeconds_ = 0.0; ///< displayed time of the clip
+    double clipSeconds_;            ///< see clipSeconds()
+    double requestedSeconds_ = 0.0; ///< requested time of the clip, whose pose may have been refused
+    double shownSeconds_ = 0.0;     ///< displayed time of the clip
     std::uint64_t materialRevision_ = 0, geometryRevision_ = 0;
 };
 

@@ -54,9 +54,9 @@ scenes::SceneOptions optionsToSave(const State& state) {
     scenes::SceneOptions options = state.open->scene().options;
     if (!canMove(state)) return options;
     if (const double timeSeconds = state.active().settings.timeSeconds; timeSeconds == 0.0)
-        options.wishes.erase(std::string(kTimeKey));
+        options.requested.erase(std::string(kTimeKey));
     else
-        options.wishes.insert_or_assign(std::string(kTimeKey), timeSeconds);
+        options.requested.insert_or_assign(std::string(kTimeKey), timeSeconds);
     return options;
 }
 

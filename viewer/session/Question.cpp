@@ -16,7 +16,7 @@ constexpr AnswerChoice kUnsavedAnswers[] = {
 constexpr AnswerChoice kRecoveryAnswers[] = {
     {Answer::Keep, "Recover (R)", GLFW_KEY_R, "Opens the scene with these edits"},
     {Answer::Discard, "Discard (D)", GLFW_KEY_D, "Deletes these edits"},
-    {Answer::Cancel, "Later (Esc)", GLFW_KEY_ESCAPE, "Asks again at the next start"},
+    {Answer::Cancel, "Later (Esc)", GLFW_KEY_ESCAPE, "Shows this again at the next start"},
 };
 
 } // namespace

@@ -14,7 +14,7 @@ void recall(const Preferences& preferences, State& state) {
 }
 
 void rememberLook(Preferences& preferences, const Look& look, const Look& begun) {
-    const Look now = asked(look), before = asked(begun);
+    const Look now = requested(look), before = requested(begun);
     for (const engine::Setting& setting : engine::settingTable()) {
         if (!setting.isRemembered || setting.value.equal(now, before)) continue;
         const std::string key(setting.key), text = setting.text(now);

@@ -29,17 +29,17 @@ SceneLoader::Result load(const std::string& source, const scenes::LoadOptions& o
     result.load.stop = {}; // it belongs to this load
     const gpu::CpuTimer clock;
     try {
-        const auto tell = [&](bool isFiltering, double done) {
+        const auto report = [&](bool isFiltering, double done) {
             if (options.stop.stop_requested()) throw scenes::LoadStopped();
-            progress.tell({isFiltering, done});
+            progress.report({isFiltering, done});
         };
-        scenes::LoadOptions telling = options;
-        telling.environmentTold = [&tell](double done) { tell(false, done); };
-        result.scene = scenes::loadScene(source, telling);
+        scenes::LoadOptions reporting = options;
+        reporting.environmentProgress = [&report](double done) { report(false, done); };
+        result.scene = scenes::loadScene(source, reporting);
         result.origin = scenes::originOf(source, options, *result.scene);
         if (result.scene->environment)
             result.filtered = std::make_shared<frame::FilteredEnvironment>(frame::cachedEnvironment(
-                result.scene->environment->map, frame::cacheFolder(), [&tell](double done) { tell(true, done); }));
+                result.scene->environment->map, frame::cacheFolder(), [&report](double done) { report(true, done); }));
     } catch (const std::bad_alloc&) {
         result.scene.reset();
         result.error = source + ": the memory is not enough for it; close other programs or open a smaller scene";

@@ -63,8 +63,8 @@ SceneSwitch::SceneSwitch(const ViewerOptions& options, State& state, const Event
 }
 
 void SceneSwitch::open(const std::string& source, const scenes::LoadOptions& load) {
-    isFirstLoad_ = !wasAsked_;
-    wasAsked_ = true;
+    isFirstLoad_ = !wasOpened_;
+    wasOpened_ = true;
     scenes::LoadOptions options = load;
     options.defaultLight = load.defaultLight && options_.load.defaultLight;
     const auto left = left_.find(identityOf(source));

@@ -55,7 +55,7 @@ private:
     std::string fault_;                ///< why writing failed last
     Look base_;                        ///< initial look of the open scene
     bool hadScene_ = false;            ///< the state's looks and `base_` belong to a scene
-    bool wasAsked_ = false;            ///< open() was called
+    bool wasOpened_ = false;           ///< open() was called
     bool isFirstLoad_ = false;         ///< the latest load is that of program start
     std::map<std::string, Left> left_; ///< by identityOf()
     SceneLoader loader_;

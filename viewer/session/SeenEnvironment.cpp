@@ -50,7 +50,7 @@ void SeenEnvironment::exchange(scenes::EnvironmentView& own, scenes::Environment
 
 void SeenEnvironment::takeAsSeen() {
     takeViewAsOwn(scene_.environment, view_);
-    scenes::askForNoView(scene_.options);
+    scenes::removeEnvironmentView(scene_.options);
     own_ = scenes::ownEnvironmentOf(scene_);
 }
 

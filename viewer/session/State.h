@@ -80,8 +80,8 @@ struct Requests {
     std::optional<std::string> open;   ///< a scene
     std::optional<std::string> chosen; ///< a dropped or chosen file: a scene or an environment
     std::optional<std::string> saveAs; ///< the scene or the image, by the extension
-    bool askWhatToOpen = false;
-    bool askWhereToSave = false;
+    bool showOpenDialog = false;
+    bool showSaveDialog = false;
     std::optional<std::string> variant;     ///< of the open scene's models; empty: none
     std::optional<std::string> environment; ///< as given to --environment
     std::optional<std::string> clip;        ///< as given to --clip
@@ -178,7 +178,7 @@ struct State {
         return pointedPlace ? pointedPlace : pinnedPlace;
     }
     /// Whether a dialog is open; the image and its keys wait.
-    bool isAsking() const { return question || files; }
+    bool hasDialog() const { return question || files; }
     /// Whether keys must wait for the dialog's field, which does not have the keyboard yet.
     bool keysWait() const { return files && !question && files->keysWait(); }
     /// The selected light and those selected with it.

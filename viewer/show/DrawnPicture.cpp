@@ -27,7 +27,7 @@ void DrawnPicture::take(const engine::Renderer& renderer, const Look& look, Kept
     countScaleLog2_ = float(frame::countScaleLog2(look.settings.view));
     hasRadiance_ = kept.radiance;
     lights_.reset();
-    if (kept.lights && PictureLights::areTold(look)) lights_.emplace(renderer);
+    if (kept.lights && PictureLights::areCounted(look)) lights_.emplace(renderer);
     if (kept.radiance) copyInto(radiance_, "shown radiance", renderer.radianceTexture());
 }
 

@@ -20,7 +20,7 @@ std::vector<frame::DebugView> viewsToRead(const State& state, const Screen& scre
 
 } // namespace
 
-void Inspector::ask(const Subject& subject, const Screen& screen) {
+void Inspector::request(const Subject& subject, const Screen& screen) {
     if (!reader_) reader_.emplace();
     std::vector<const gpu::Texture*> textures;
     for (int side = 0; side < int(subject.views.size()); ++side) {
@@ -29,13 +29,13 @@ void Inspector::ask(const Subject& subject, const Screen& screen) {
     }
     reader_->request(textures, {subject.pixel.x, subject.sizePixels.y - 1 - subject.pixel.y});
     subject_ = subject;
-    isAsked_ = true;
+    isRequested_ = true;
 }
 
 bool Inspector::take(Facts& facts) {
     const auto texels = reader_->take();
     if (!texels) return false;
-    isAsked_ = false;
+    isRequested_ = false;
     awaitsRest_ = true;
     Inspection& inspection = facts.inspection.emplace();
     inspection.pixel = subject_->pixel;
@@ -66,22 +66,22 @@ bool Inspector::update(Facts& facts, const State& state, const Screen& screen, s
     const std::optional<glm::vec2> place = state.inspectedPlace();
     if (!place || !state.open) {
         subject_.reset();
-        isAsked_ = awaitsRest_ = false;
+        isRequested_ = awaitsRest_ = false;
         const bool wasShown = facts.inspection.has_value();
         facts.inspection.reset();
         return wasShown;
     }
-    bool isChanged = isAsked_ && take(facts);
+    bool isChanged = isRequested_ && take(facts);
     std::vector<frame::DebugView> views = viewsToRead(state, screen);
     if (facts.inspection &&
         std::exchange(facts.inspection->isOfUnshifted, screen.showsSmoothed()) != screen.showsSmoothed())
         isChanged = true;
     if (views.empty()) awaitsRest_ = false;
-    if (views.empty() || isAsked_) return isChanged;
+    if (views.empty() || isRequested_) return isChanged;
     const glm::ivec2 size = screen.picture(0).display().sizePixels();
     const Subject subject{pixelAt(*place, size), size, picture, std::move(views)};
     if (subject_ != subject) {
-        ask(subject, screen);
+        request(subject, screen);
     } else if (awaitsRest_ && isAtRest && facts.inspection) {
         awaitsRest_ = false;
         findSurface(*facts.inspection, state, screen);

@@ -16,7 +16,7 @@ public:
     /// Throws std::runtime_error if finding the surface fails, and then does not retry.
     bool update(Facts& facts, const State& state, const Screen& screen, std::uint64_t picture, bool isAtRest);
     /// Another frame is needed to fetch requested values.
-    bool isBusy() const { return isAsked_; }
+    bool isBusy() const { return isRequested_; }
     /// The surface is still to be found, when everything is idle.
     bool awaitsRest() const { return awaitsRest_; }
 
@@ -27,13 +27,13 @@ private:
         std::vector<frame::DebugView> views; ///< by side
         bool operator==(const Subject&) const = default;
     };
-    void ask(const Subject& subject, const Screen& screen);
+    void request(const Subject& subject, const Screen& screen);
     bool take(Facts& facts);
     void findSurface(Inspection& inspection, const State& state, const Screen& screen) const;
 
     std::optional<gpu::TexelReader> reader_; ///< created on first use
     std::optional<Subject> subject_;         ///< of the latest request
-    bool isAsked_ = false, awaitsRest_ = false;
+    bool isRequested_ = false, awaitsRest_ = false;
 };
 
 } // namespace tessera::viewer

@@ -19,8 +19,8 @@ namespace {
 constexpr double kLongMs = 1000.0;
 /// The same after a first image, whose time includes compiling shaders and thus predicts nothing.
 constexpr double kLongFirstMs = 250.0;
-constexpr double kQuietSeconds = 0.5; ///< until progress is shown first,
-constexpr double kTellSeconds = 0.25; ///< and between updates
+constexpr double kQuietSeconds = 0.5;     ///< until progress is shown first,
+constexpr double kProgressSeconds = 0.25; ///< and between updates
 
 } // namespace
 
@@ -87,10 +87,10 @@ void PictureDrawing::noteShown() {
 bool PictureDrawing::update(glm::ivec2 sizePixels) {
     gaveUpAtRest_ = false;
     if (std::exchange(facts_.progress, std::nullopt)) pulse_.another(); // to remove the progress box
-    const bool wasAnnounced = facts_.isPreparing || facts_.isSpreading;
-    facts_.isPreparing = facts_.isSpreading = false;
-    const bool wasSpreading = std::exchange(facts_.spreading, std::nullopt).has_value();
-    if (wasSpreading) pulse_.another(); // to update the status line
+    const bool wasAnnounced = facts_.isPreparing || facts_.isDiffusing;
+    facts_.isPreparing = facts_.isDiffusing = false;
+    const bool wasDiffusing = std::exchange(facts_.diffusion, std::nullopt).has_value();
+    if (wasDiffusing) pulse_.another(); // to update the status line
     if (!wasAnnounced) announcements_ = 0;
     if (!state_.open || sizePixels.x < 1 || sizePixels.y < 1) return false;
     wanted_.looks = {drawnLook(state_, 0), drawnLook(state_, 1)};
@@ -116,15 +116,15 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     if (cancelled_) return false;
     const bool isWholeNow = isWhole();
     if (isWholeNow && isAtRest && screen_.lacksLight(wanted_, Screen::Reach::All))
-        return spreadSlice(Screen::Reach::All);
+        return diffuseSlice(Screen::Reach::All);
     if (isWholeNow && isAtRest && lacksSmoothing()) smooth();
     if (isWholeNow || (have > 0.0 && have >= movingScale() && isMoving(state_))) return false;
     if (have > 0.0 && !isAtRest) return false;
     if (isAtRest && !isDescribed_) return false; // the full image may take long: show the figures of this one first
     const bool lacksLight = isAtRest && screen_.lacksLight(wanted_, Screen::Reach::Seen);
     // If diffusion takes long, a full-resolution image without it comes first.
-    const bool isSmall = facts_.scale < restScale() && (screen_.spreadsAnew(wanted_) || wasSpreading);
-    if (lacksLight && !isSmall) return spreadSlice(Screen::Reach::Seen);
+    const bool isSmall = facts_.scale < restScale() && (screen_.diffusesAnew(wanted_) || wasDiffusing);
+    if (lacksLight && !isSmall) return diffuseSlice(Screen::Reach::Seen);
     if (have == 0.0) pulse_.stirred(Window::nowSeconds());
     // A fixed scale applies to all images: none is better.
     const double scale = isAtRest ? nextScale() : movingScale();
@@ -135,16 +135,16 @@ bool PictureDrawing::update(glm::ivec2 sizePixels) {
     return drawAt(scale, stay, isAtRest);
 }
 
-bool PictureDrawing::spreadSlice(Screen::Reach reach) {
+bool PictureDrawing::diffuseSlice(Screen::Reach reach) {
     try {
-        const engine::SpreadProgress progress = screen_.spreadSlice(wanted_, reach);
+        const engine::DiffusionProgress progress = screen_.diffuseSlice(wanted_, reach);
         if (progress.isDone())
-            log_.line(progress.isOfAll ? "spread light everywhere" : "spread light in view");
+            log_.line(progress.isOfAll ? "diffused light everywhere" : "diffused light in view");
         else
-            facts_.spreading = progress;
-        if (facts_.spreading && reach == Screen::Reach::Seen) {
+            facts_.diffusion = progress;
+        if (facts_.diffusion && reach == Screen::Reach::Seen) {
             const double tiles = double(std::max<std::size_t>(progress.tiles, 1));
-            facts_.progress = {"Spreading light over surfaces", double(progress.doneTiles) / tiles, true};
+            facts_.progress = {"Diffusing light over surfaces", double(progress.doneTiles) / tiles, true};
         }
     } catch (const std::exception& error) {
         calls_.fails(error.what());
@@ -156,8 +156,8 @@ bool PictureDrawing::isToBeAnnounced(Screen::Stay stay) {
     constexpr int kFrames = 2; // the interface of this frame is already laid out
     if (announcements_ >= kFrames) return false;
     facts_.isPreparing = screen_.lacksPrograms(wanted_);
-    facts_.isSpreading = !facts_.isPreparing && stay == Screen::Stay::Stays && screen_.spreadsAnew(wanted_);
-    if (!facts_.isPreparing && !facts_.isSpreading) return false;
+    facts_.isDiffusing = !facts_.isPreparing && stay == Screen::Stay::Stays && screen_.diffusesAnew(wanted_);
+    if (!facts_.isPreparing && !facts_.isDiffusing) return false;
     facts_.progress = announced();
     ++announcements_;
     pulse_.another();
@@ -165,7 +165,7 @@ bool PictureDrawing::isToBeAnnounced(Screen::Stay stay) {
 }
 
 Progress PictureDrawing::announced() const {
-    return {facts_.isSpreading ? "Spreading light over surfaces" : "Preparing shaders", {}, true};
+    return {facts_.isDiffusing ? "Diffusing light over surfaces" : "Preparing shaders", {}, true};
 }
 
 std::string PictureDrawing::drawingText(double scale) const {
@@ -192,14 +192,14 @@ std::optional<double> PictureDrawing::drawingShare() const {
     return done / all;
 }
 
-void PictureDrawing::tellProgress(double scale) {
-    if (!calls_.tells || Window::nowSeconds() < nextTold_) return;
+void PictureDrawing::showProgress(double scale) {
+    if (!calls_.showProgress || Window::nowSeconds() < nextProgress_) return;
     const std::optional<double> share = drawingShare();
     facts_.progress = screen_.lacksPrograms(wanted_) ? announced() : Progress{drawingText(scale), share, true};
     log_.line(fmt::format("progress {}{}", facts_.progress->text,
                           share ? fmt::format(" {:.0f} %", 100.0 * *share) : std::string()));
-    calls_.tells();
-    nextTold_ = Window::nowSeconds() + kTellSeconds;
+    calls_.showProgress();
+    nextProgress_ = Window::nowSeconds() + kProgressSeconds;
 }
 
 bool PictureDrawing::isInterrupted(bool isAtRest) {
@@ -213,11 +213,11 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
     const bool mayGiveUp = isAtRest || screen_.isSlow(wanted_);
     const auto givesUp = [this, isAtRest, scale] {
         if (isInterrupted(isAtRest)) return true;
-        tellProgress(scale);
+        showProgress(scale);
         return false;
     };
     const double startedAt = Window::nowSeconds();
-    nextTold_ = startedAt + kQuietSeconds;
+    nextProgress_ = startedAt + kQuietSeconds;
     const bool isNewKind = screen_.isNewKind(wanted_);
     if (screen_.lacksPrograms(wanted_)) facts_.progress = announced(); // until aborted, or replaced by the progress
     try {
@@ -249,7 +249,7 @@ bool PictureDrawing::drawAt(double scale, Screen::Stay stay, bool isAtRest) {
         pulse_.another(); // the next frame shows this one's figures
         if (state_.notice.isError && state_.notice.text == drawingFault_) state_.notice = {};
         note(missingTextures_, std::move(drawn.missingTextures));
-        if (drawn.unseenSpread) note(unseenSpread_, std::move(*drawn.unseenSpread));
+        if (drawn.invisibleDiffusion) note(invisibleDiffusion_, std::move(*drawn.invisibleDiffusion));
         const Look& look = wanted_.looks[drawn.isOfSide[0] ? 0 : 1];
         log_.line(fmt::format("drawn {} scale {:.4g} size {}x{} ms {:.1f} technique {} view {}{}", pictures_,
                               drawn.scale, drawn.sizePixels.x, drawn.sizePixels.y, drawn.ms,

@@ -18,7 +18,7 @@ public:
     struct Calls {
         std::function<void(const std::string&)> fails; ///< shows an error
         /// Shows Facts::progress over the unchanged window while an image is being drawn: between bands (Bands.h).
-        std::function<void()> tells;
+        std::function<void()> showProgress;
         std::function<bool()> isOver; ///< something was loaded that replaces the contents of the image
     };
     /// All must outlive the object.
@@ -47,24 +47,24 @@ public:
     /// Whether shifted images that antialias the idle one are left to draw.
     bool lacksSmoothing() const;
     /// Whether the window still shows the frame rate, which is wrong when idle.
-    bool tellsRate() const { return facts_.picturesPerSecond.has_value(); }
+    bool showsRate() const { return facts_.picturesPerSecond.has_value(); }
 
 private:
     double restScale() const;
     /// Whether the image must be drawn again with the light lists that the inspector needs.
-    bool lacksLights() const { return state_.inspects && screen_.shows(wanted_) && !screen_.knowsLights(wanted_); }
+    bool lacksLights() const { return state_.inspects && screen_.shows(wanted_) && !screen_.hasLights(wanted_); }
     /// Records scale and size of the displayed images.
     void noteShown();
     double movingScale() const;
     /// The scale of the next idle image: full or, if that takes long, at least twice the latest one.
     double nextScale() const;
     /// Reports from time to time how far the image at a scale is drawn.
-    void tellProgress(double scale);
+    void showProgress(double scale);
     Progress announced() const;
     std::string drawingText(double scale) const;
     std::optional<double> drawingShare() const;
     /// Diffuses a slice of irradiance for the next image, but draws none; the status line shows the progress.
-    bool spreadSlice(Screen::Reach reach);
+    bool diffuseSlice(Screen::Reach reach);
     /// Draws the next of the shifted images.
     void smooth();
     /// Before the first image of a kind, and before an image that stays and recomputes its diffused irradiance, the
@@ -91,11 +91,11 @@ private:
     int announcements_ = 0;   ///< frames in which the next image has been announced
     int givenUp_ = 0;
     bool gaveUpAtRest_ = false;
-    bool wasUnlike_ = false;                     ///< the latest image cost more than later ones of its kind will
-    double nextTold_ = 0.0;                      ///< when progress is shown next
-    std::optional<Screen::Wanted> cancelled_;    ///< not drawn any further
-    std::string drawingFault_;                   ///< error of the latest image that failed
-    std::string missingTextures_, unseenSpread_; ///< of the latest image; reported by a notice
+    bool wasUnlike_ = false;                           ///< the latest image cost more than later ones of its kind will
+    double nextProgress_ = 0.0;                        ///< when progress is shown next
+    std::optional<Screen::Wanted> cancelled_;          ///< not drawn any further
+    std::string drawingFault_;                         ///< error of the latest image that failed
+    std::string missingTextures_, invisibleDiffusion_; ///< of the latest image; reported by a notice
 };
 
 } // namespace tessera::viewer

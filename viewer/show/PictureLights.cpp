@@ -6,7 +6,7 @@
 
 namespace tessera::viewer {
 
-bool PictureLights::areTold(const engine::ViewRequest& view) {
+bool PictureLights::areCounted(const engine::ViewRequest& view) {
     return frame::sumsOverLights(view.settings.view) && !infoOf(view.technique).addsByBlending &&
            view.settings.samples == 1;
 }

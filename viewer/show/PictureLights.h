@@ -13,7 +13,7 @@ public:
     /// Whether images of a view have these numbers: the view sums over lights, and the technique visits them per pixel,
     /// with a single sample. A frame has one sample exactly if one is requested: techniques and drivers that support no
     /// more refuse the others (engine/ChooseSamples.h).
-    static bool areTold(const engine::ViewRequest& view);
+    static bool areCounted(const engine::ViewRequest& view);
 
     /// For the renderer's latest frame, of such a view. Waits for the GPU.
     explicit PictureLights(const engine::Renderer& renderer)

@@ -7,7 +7,7 @@
 
 namespace tessera::viewer {
 
-void reloadShaders(shader::ProgramLibrary& library, State& state, const EventLog& log, bool isAsked) {
+void reloadShaders(shader::ProgramLibrary& library, State& state, const EventLog& log, bool isRequested) {
     const shader::Reloading done = library.reload();
     std::map<std::string, std::vector<std::string>> programs; // by the error that they share
     for (const shader::ShaderFault& fault : done.faults) {
@@ -28,7 +28,7 @@ void reloadShaders(shader::ProgramLibrary& library, State& state, const EventLog
                 false};
         else if (hadFaults)
             state.notice = {"Shaders reloaded: their errors are gone", false};
-        else if (isAsked)
+        else if (isRequested)
             state.notice = {"Shaders reloaded: nothing has changed in them", false};
     }
 }

@@ -5,8 +5,8 @@
 
 namespace tessera::viewer {
 
-/// Compiles the programs whose sources have changed, and shows their errors, or a notice of success. `isAsked`:
+/// Compiles the programs whose sources have changed, and shows their errors, or a notice of success. `isRequested`:
 /// requested by the user, who is also notified if nothing has changed.
-void reloadShaders(shader::ProgramLibrary& library, State& state, const EventLog& log, bool isAsked);
+void reloadShaders(shader::ProgramLibrary& library, State& state, const EventLog& log, bool isRequested);
 
 } // namespace tessera::viewer

@@ -40,14 +40,14 @@ std::span<const Look> looksOf(const Screen::Wanted& wanted) {
 }
 
 /// While one exists, frames diffuse no more irradiance than the limit.
-class LimitedSpread {
+class LimitedDiffusion {
 public:
-    LimitedSpread(engine::Renderer& renderer, std::optional<engine::SpreadLimit> limit) : renderer_(renderer) {
-        renderer_.limitSpreadLight(limit);
+    LimitedDiffusion(engine::Renderer& renderer, std::optional<engine::DiffusionLimit> limit) : renderer_(renderer) {
+        renderer_.limitDiffusion(limit);
     }
-    ~LimitedSpread() { renderer_.limitSpreadLight({}); }
-    LimitedSpread(const LimitedSpread&) = delete;
-    LimitedSpread& operator=(const LimitedSpread&) = delete;
+    ~LimitedDiffusion() { renderer_.limitDiffusion({}); }
+    LimitedDiffusion(const LimitedDiffusion&) = delete;
+    LimitedDiffusion& operator=(const LimitedDiffusion&) = delete;
 
 private:
     engine::Renderer& renderer_;
@@ -107,34 +107,34 @@ const std::set<std::string>& Screen::programsOf(const Wanted& wanted) const {
     return programs.keys;
 }
 
-bool Screen::spreadsAnew(const Wanted& wanted) const {
-    return scene_ != nullptr && spreadLight_.isAnew(scene_->scene(), looksOf(wanted), wanted.sceneEdits);
+bool Screen::diffusesAnew(const Wanted& wanted) const {
+    return scene_ != nullptr && diffusedLight_.isAnew(scene_->scene(), looksOf(wanted), wanted.sceneEdits);
 }
 
-void Screen::tellSpreadLight(const Wanted& drawn) {
-    spreadLight_.drew(scene_->scene(), looksOf(drawn), drawn.sceneEdits, renderer_->backend().mostIdleFrames());
+void Screen::recordDiffusedLight(const Wanted& drawn) {
+    diffusedLight_.drew(scene_->scene(), looksOf(drawn), drawn.sceneEdits, renderer_->backend().mostIdleFrames());
 }
 
-void Screen::forgetSpreadLight() {
-    spreadLight_.forget();
-    spreadFor_.reset();
-    isAllSpread_ = isAllTooMuch_ = false;
+void Screen::forgetDiffusedLight() {
+    diffusedLight_.forget();
+    diffusedFor_.reset();
+    isAllDiffused_ = isAllTooMuch_ = false;
 }
 
 bool Screen::lacksLight(const Wanted& wanted, Reach reach) const {
-    if (scene_ == nullptr || failed_ == wanted || !sharedSpread(scene_->scene(), looksOf(wanted))) return false;
-    if (spreadsAnew(wanted)) return true;
-    return !isAllSpread_ && (reach == Reach::All ? !isAllTooMuch_ : spreadFor_ != wanted);
+    if (scene_ == nullptr || failed_ == wanted || !sharedDiffusion(scene_->scene(), looksOf(wanted))) return false;
+    if (diffusesAnew(wanted)) return true;
+    return !isAllDiffused_ && (reach == Reach::All ? !isAllTooMuch_ : diffusedFor_ != wanted);
 }
 
-engine::SpreadProgress Screen::spreadSlice(const Wanted& wanted, Reach reach) {
-    const Look look = sharedSpread(scene_->scene(), looksOf(wanted)).value();
-    if (spreadsAnew(wanted)) forgetSpreadLight();
+engine::DiffusionProgress Screen::diffuseSlice(const Wanted& wanted, Reach reach) {
+    const Look look = sharedDiffusion(scene_->scene(), looksOf(wanted)).value();
+    if (diffusesAnew(wanted)) forgetDiffusedLight();
     Look small = look;
     small.settings.wholePixels = look.settings.sizePixels;
     small.settings.sizePixels = sliceSize(look.settings.sizePixels);
     const std::size_t programs = renderer_->programs().size();
-    const LimitedSpread limited(*renderer_, engine::SpreadLimit{pace_.tiles(), reach == Reach::All});
+    const LimitedDiffusion limited(*renderer_, engine::DiffusionLimit{pace_.tiles(), reach == Reach::All});
     const gpu::CpuTimer clock;
     try {
         renderer_->draw(small.technique, small.settings);
@@ -145,10 +145,10 @@ engine::SpreadProgress Screen::spreadSlice(const Wanted& wanted, Reach reach) {
     }
     if (renderer_->programs().size() == programs) pace_.took(clock.elapsedMs());
     // Images that do not stay can use what is there.
-    spreadLight_.drew(scene_->scene(), {&look, 1}, wanted.sceneEdits, renderer_->backend().mostIdleFrames());
-    const engine::SpreadProgress progress = renderer_->spreadProgress();
-    if (progress.isDone()) spreadFor_ = wanted;
-    if (progress.isDone() && reach == Reach::All) (progress.isOfAll ? isAllSpread_ : isAllTooMuch_) = true;
+    diffusedLight_.drew(scene_->scene(), {&look, 1}, wanted.sceneEdits, renderer_->backend().mostIdleFrames());
+    const engine::DiffusionProgress progress = renderer_->diffusionProgress();
+    if (progress.isDone()) diffusedFor_ = wanted;
+    if (progress.isDone() && reach == Reach::All) (progress.isOfAll ? isAllDiffused_ : isAllTooMuch_) = true;
     return progress;
 }
 
@@ -190,9 +190,9 @@ double Screen::shownScale(const Wanted& wanted) const {
     return scale;
 }
 
-bool Screen::knowsLights(const Wanted& wanted) const {
+bool Screen::hasLights(const Wanted& wanted) const {
     for (int side = 0; side < wanted.sides; ++side)
-        if (!knowsLights(side)) return false;
+        if (!hasLights(side)) return false;
     return true;
 }
 
@@ -204,7 +204,7 @@ bool Screen::canDiffer() const {
 
 Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool keepsLights,
                            const std::function<bool()>& givesUp) {
-    const bool isAnew = spreadsAnew(wanted), isCoarse = isAnew && stay != Stay::Stays;
+    const bool isAnew = diffusesAnew(wanted), isCoarse = isAnew && stay != Stay::Stays;
     // GPUs diffuse irradiance of newly visible surfaces within the frame.
     const bool isLimited = !isAnew && stay != Stay::Stays && context_.capabilities().isSoftware;
     const bool mayLack = isCoarse || (isLimited && lacksLight(wanted, Reach::Seen));
@@ -215,18 +215,18 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
     for (int side = 0; side < wanted.sides; ++side) {
         const Made* const made = madeFor(wanted, side);
         result.isOfSide[std::size_t(side)] = made == nullptr || made->scale < scale || (made->lacksLight && !mayLack) ||
-                                             (keepsLights && !knowsLights(side));
+                                             (keepsLights && !hasLights(side));
     }
     isOfSide_ = result.isOfSide;
     const bool isNew = isNewKind(wanted), isSlowKind = isSlow(wanted);
     failed_.reset();
     if (isAnew)
-        forgetSpreadLight();
+        forgetDiffusedLight();
     else
-        tellSpreadLight(wanted);
+        recordDiffusedLight(wanted);
     const std::size_t programs = renderer_->programs().size();
     bool isLacking = false;
-    const LimitedSpread limited(*renderer_, isLimited ? std::optional(engine::SpreadLimit{}) : std::nullopt);
+    const LimitedDiffusion limited(*renderer_, isLimited ? std::optional(engine::DiffusionLimit{}) : std::nullopt);
     try {
         std::optional<gpu::BandedDrawing> banded;
         if (givesUp) banded.emplace(givesUp, gpu::BandPace{isSlowKind});
@@ -246,8 +246,8 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
             result.passes[std::size_t(side)] = renderer_->backend().passTimings();
             result.shadows[std::size_t(side)] = renderer_->shadows();
             result.missingTextures = renderer_->missingTextures();
-            if (!isCoarse) result.unseenSpread = renderer_->unseenSpread();
-            isLacking = isLacking || !renderer_->spreadProgress().isDone();
+            if (!isCoarse) result.invisibleDiffusion = renderer_->invisibleDiffusion();
+            isLacking = isLacking || !renderer_->diffusionProgress().isDone();
             banded.reset(); // copying must not be aborted half way
             DrawnPicture& taken = side == 0 && result.isOfSide[1] ? waiting_ : pictures_[std::size_t(side)];
             if (&taken == &pictures_[std::size_t(side)]) made_[std::size_t(side)].reset(); // in case copying fails
@@ -270,13 +270,13 @@ Screen::Drawn Screen::draw(const Wanted& wanted, double scale, Stay stay, bool k
             made_[std::size_t(side)] = {wanted.looks[std::size_t(side)], wanted.sceneRevision, wanted.sceneEdits, scale,
                                         result.lacksLight};
         }
-    if (isAnew && !isCoarse) tellSpreadLight(wanted);
+    if (isAnew && !isCoarse) recordDiffusedLight(wanted);
     kind_ = wanted.looks;
     const std::set<std::string>& programsDrawn = programsOf(wanted);
     known_.insert(programsDrawn.begin(), programsDrawn.end());
     if (isLacking) { // whatever removed it
-        spreadFor_.reset();
-        isAllSpread_ = false;
+        diffusedFor_.reset();
+        isAllDiffused_ = false;
     }
     differenceIsStale_ = true;
     const bool compiled = renderer_->programs().size() != programs;

@@ -10,10 +10,10 @@
 #include "viewer/session/State.h"
 #include "viewer/show/CountColors.h"
 #include "viewer/show/Difference.h"
+#include "viewer/show/DiffusedLight.h"
 #include "viewer/show/DrawnPicture.h"
 #include "viewer/show/ResolutionScale.h"
 #include "viewer/show/Smoothing.h"
-#include "viewer/show/SpreadLight.h"
 
 namespace tessera::viewer {
 
@@ -45,7 +45,7 @@ public:
         std::array<std::optional<engine::DrawnShadows>, 2> shadows;
         // From engine::Renderer, for the last side drawn.
         std::string missingTextures;
-        std::optional<std::string> unseenSpread; ///< none if small atlases were used
+        std::optional<std::string> invisibleDiffusion; ///< none if small atlases were used
     };
 
     explicit Screen(gpu::Context& context);
@@ -78,18 +78,18 @@ public:
     /// theirs.
     bool isNewKind(const Wanted& wanted) const;
     /// Whether diffused irradiance must be recomputed, which takes seconds at full resolution.
-    bool spreadsAnew(const Wanted& wanted) const;
+    bool diffusesAnew(const Wanted& wanted) const;
     /// Whether irradiance must be diffused in slices: of visible surfaces before an image that stays (Seen), or of all
     /// surfaces after it, for other cameras (All).
     enum class Reach : std::uint8_t { Seen, All };
     bool lacksLight(const Wanted& wanted, Reach reach) const;
     /// Diffuses a slice; the images stay unchanged. Throws as Renderer::draw does; then the image counts as failed.
-    engine::SpreadProgress spreadSlice(const Wanted& wanted, Reach reach);
+    engine::DiffusionProgress diffuseSlice(const Wanted& wanted, Reach reach);
     /// Whether drawing may take so long that pending input must abort it: the image is the first of its kind, or even
     /// the latest one drawn while something moved took that long.
     bool isSlow(const Wanted& wanted) const { return isNewKind(wanted) || latestMs_ > kSlowMs; }
     /// Whether the wanted images have kept their light lists, if their views have any; draw() keeps them on request.
-    bool knowsLights(const Wanted& wanted) const;
+    bool hasLights(const Wanted& wanted) const;
     /// Draws the wanted images at a scale, except for a side that already has its image at that scale. Images that do
     /// not stay use small atlases if irradiance must be recomputed, and on software rasterisers do not diffuse newly
     /// visible surfaces. `givesUp` may be null, and may show the previous images, which stay if it aborts the frame, or
@@ -111,7 +111,7 @@ public:
         failed_.reset();
         differenceIsStale_ = true;
         forgetSmoothing();
-        forgetSpreadLight();
+        forgetDiffusedLight();
     }
 
     /// Computes the difference image, amplified by `factor`, if the images or the factor have changed. Throws
@@ -146,13 +146,13 @@ private:
     };
     /// The same, if it is the wanted image; else null.
     const Made* madeFor(const Wanted& wanted, int side) const;
-    bool knowsLights(int side) const {
-        return picture(side).lights() != nullptr || !PictureLights::areTold(picture(side).look());
+    bool hasLights(int side) const {
+        return picture(side).lights() != nullptr || !PictureLights::areCounted(picture(side).look());
     }
     /// Whether both images exist, of one size and one scene.
     bool canDiffer() const;
-    void tellSpreadLight(const Wanted& drawn);
-    void forgetSpreadLight();
+    void recordDiffusedLight(const Wanted& drawn);
+    void forgetDiffusedLight();
     /// The program keys of all sides.
     const std::set<std::string>& programsOf(const Wanted& wanted) const;
 
@@ -171,11 +171,11 @@ private:
     bool differenceIsStale_ = true;
     float differenceFactor_ = 0.0f;
     ResolutionScale resolution_;
-    SpreadLight spreadLight_;         ///< of this scene
-    SpreadPace pace_;                 ///< likewise
-    std::optional<Wanted> spreadFor_; ///< the visible surfaces of these images have their irradiance
-    bool isAllSpread_ = false;        ///< irradiance is diffused for all cameras,
-    bool isAllTooMuch_ = false;       ///< or would take too much memory
+    DiffusedLight diffusedLight_;       ///< of this scene
+    DiffusionPace pace_;                ///< likewise
+    std::optional<Wanted> diffusedFor_; ///< the visible surfaces of these images have their irradiance
+    bool isAllDiffused_ = false;        ///< irradiance is diffused for all cameras,
+    bool isAllTooMuch_ = false;         ///< or would take too much memory
     /// Programs of the wanted images.
     struct Programs {
         Wanted wanted;

@@ -23,7 +23,7 @@ bool isModifier(const InputEvent& event) {
 }
 
 /// Whether modifiers change its meaning.
-bool heedsModifiers(const InputEvent& event) {
+bool readsModifiers(const InputEvent& event) {
     switch (event.kind) {
     case InputEvent::Kind::Key:
         return event.down && !isModifier(event);
@@ -51,7 +51,7 @@ bool fits(const std::vector<InputEvent>& taken, const InputEvent& next) {
         return !any([](const InputEvent& event) { return event.kind == InputEvent::Kind::Button; });
     const bool endsDrag = next.kind == InputEvent::Kind::Button && !next.down;
     if (endsDrag && any([](const InputEvent& event) { return event.kind == InputEvent::Kind::Move; })) return false;
-    if (isModifier(next) && any(heedsModifiers)) return false;
+    if (isModifier(next) && any(readsModifiers)) return false;
     if (next.kind == InputEvent::Kind::Character) return !any(isEditingKey);
     if (isSwitch(next))
         return !any([&](const InputEvent& event) { return event.kind == next.kind && event.code == next.code; });

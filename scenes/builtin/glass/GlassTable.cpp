@@ -112,7 +112,7 @@ Scene makeGlass(const LoadOptions& options, LoadLedger& ledger) {
     scene.environment->rotationDegrees = -58.0f;
     addCamera(scene, "front", {0.02, 0.42, 1.28}, {0.0, 0.11, -0.05}, 31.0);
     addCamera(scene, "panes", {-0.22, 0.24, 0.62}, {-0.34, 0.11, -0.25}, 42.0);
-    scene.options.wishes["toneMap"] = std::string("khronos_neutral");
+    scene.options.requested["toneMap"] = std::string("khronos_neutral");
     return scene;
 }
 

@@ -153,7 +153,7 @@ Scene makeModels(const LoadOptions& options, LoadLedger&) {
     addCamera(scene, "front", {0.0, 2.75, 7.6}, {0.0, 0.98, -1.0}, 29.0);
     addCamera(scene, "gloss with a direction", {-1.6, 1.9, 2.2}, {0.1, 0.95, -1.4}, 42.0);
     addCamera(scene, "layers", {0.9, 2.25, 0.9}, {0.15, 1.42, -2.7}, 44.0);
-    scene.options.wishes["toneMap"] = std::string("khronos_neutral");
+    scene.options.requested["toneMap"] = std::string("khronos_neutral");
     return scene;
 }
 

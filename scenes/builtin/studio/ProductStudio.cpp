@@ -110,7 +110,7 @@ Scene makeProductStudio(const LoadOptions& options, LoadLedger&) {
     keepFirstLights(scene, options);
     addCamera(scene, "front", {0.12, 1.30, 4.1}, {0.06, 0.33, 0.0}, 31.0);
     addCamera(scene, "near", {-1.1, 0.72, 1.75}, {0.05, 0.26, 0.15}, 36.0);
-    scene.options.wishes["toneMap"] = std::string("khronos_neutral");
+    scene.options.requested["toneMap"] = std::string("khronos_neutral");
     return scene;
 }
 

@@ -35,7 +35,7 @@
 #endif
 
 // Whether lights affect the surface.
-bool takesLight(Surface surface)
+bool isLit(Surface surface)
 {
     return !IS_UNLIT(surface.model);
 }
@@ -110,7 +110,7 @@ vec3 lightsOnSurface(vec3 before, SeenSurface seen, Viewpoint viewpoint, vec2 pi
 {
     precise vec3 radiance = before;
 #if HAS_LIT_MODELS
-    if (!takesLight(seen.surface)) return radiance;
+    if (!isLit(seen.surface)) return radiance;
     prepareForLights(seen);
     LightCursor cursor = lightCursor(pixel, viewpoint.depth);
     int light;
@@ -166,7 +166,7 @@ vec3 shadeSurface(Surface surface, Viewpoint viewpoint, vec2 pixel, inout vec3 p
     SeenSurface seen = seenSurface(surface, viewpoint.toViewerLS);
     precise vec3 radiance = emittedRadiance(seen);
 #if HAS_ENVIRONMENT
-    if (takesLight(surface)) radiance += environmentOnSurface(seen, pixel);
+    if (isLit(surface)) radiance += environmentOnSurface(seen, pixel);
 #endif
     return lightsOnSurface(radiance, seen, viewpoint, pixel, passed);
 }

@@ -113,7 +113,7 @@ TexCoord slotCoordinate(Fragment fragment, int slot)
 }
 
 // Whether the slot's sampler uses nearest filtering here.
-bool slotTakesNearest(sampler2D image, int slot, Fragment fragment, int modes)
+bool slotUsesNearest(sampler2D image, int slot, Fragment fragment, int modes)
 {
 #if FILTER_EXACT && HAS_MIXED_FILTERS
     dmat2 change = fragment.texCoordChange[0];
@@ -124,7 +124,7 @@ bool slotTakesNearest(sampler2D image, int slot, Fragment fragment, int modes)
     dmat2 moved = dmat2(material.uvRow0[slot].x, material.uvRow1[slot].x, material.uvRow0[slot].y, material.uvRow1[slot].y);
     change = moved * change;
 #endif
-    return takesNearest(image, change, modes);
+    return usesNearest(image, change, modes);
 #else
     return (modes & TEXTURE_MODE_MAGNIFIES_NEAREST) != 0;
 #endif
@@ -133,7 +133,7 @@ bool slotTakesNearest(sampler2D image, int slot, Fragment fragment, int modes)
 vec4 sampleSlot(sampler2D image, int slot, Fragment fragment)
 {
     int modes = int(material.uvRow1[slot].w);
-    return sampleFiltered(image, slotCoordinate(fragment, slot), modes, slotTakesNearest(image, slot, fragment, modes));
+    return sampleFiltered(image, slotCoordinate(fragment, slot), modes, slotUsesNearest(image, slot, fragment, modes));
 }
 
 // rgb colour, a opacity.

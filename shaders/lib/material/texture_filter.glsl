@@ -52,7 +52,7 @@ vec4 linearTexel(sampler2D image, int x, int y, int modes)
 #if FILTER_EXACT && HAS_MIXED_FILTERS
 // Whether the sampler uses nearest filtering, by the level of detail: log2 of the longer column of `change`, the change
 // of the coordinate to the next pixels, in texels. Source: OpenGL 4.5 core, sections 8.14.1 and 8.15.
-bool takesNearest(sampler2D image, dmat2 change, int modes)
+bool usesNearest(sampler2D image, dmat2 change, int modes)
 {
     dvec2 size = dvec2(textureSize(image, 0));
     dvec2 right = change[0] * size, up = change[1] * size;

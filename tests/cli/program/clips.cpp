@@ -74,7 +74,7 @@ TEST_F(PlayedClips, framesOfASequenceAreThePicturesOfTheirTimes) {
     runGood({"compare", "slide.gltf", "--size", "64x32", "--time", "0.3", "--against", "reference"});
 }
 
-TEST_F(PlayedClips, framesBehindTheEndOfAClipAreToldOfAndShowItAgainWhereItIsRepeated) {
+TEST_F(PlayedClips, framesBehindTheEndOfAClipAreReportedAndShowItAgainWhereItIsRepeated) {
     EXPECT_THAT(runGood(command({"--frames", "6", "--fps", "2", "-o", "f_%d.exr"})),
                 HasSubstr("\nframes 3 to 5 lie behind the clip's end at 1 s, where it stands still; --loop begins it "
                           "again\n"));

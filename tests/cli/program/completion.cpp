@@ -108,34 +108,34 @@ TEST_F(Completion, bashOffersFilesAndFoldersWhereTheyAreTaken) {
     EXPECT_THAT(offered({"render", "hall", "--environment", ""}), IsSupersetOf({"studio", "none", "maps"}));
 }
 
-TEST_F(Completion, zshIsToldEveryOptionOfTheHelp) {
-    folder_.write("ask.zsh", R"(
+TEST_F(Completion, zshCompletesEveryOptionOfTheHelp) {
+    folder_.write("complete.zsh", R"(
 compdef() { }
 _describe() { print -rl -- $commands }
 _arguments() {
     print -rl -- "$@"
-    [[ " $* " != *'->command'* ]] || { state=$asked line=($command) }
+    [[ " $* " != *'->command'* ]] || { state=$requested line=($command) }
 }
 _alternative() { }
 source <($program completion zsh)
 _tessera
 )");
-    const auto told = [&](const std::string& state, const std::string& command) {
+    const auto completions = [&](const std::string& state, const std::string& command) {
         const ProcessResult result =
-            runProcess({"zsh", "-f", "ask.zsh"},
-                       {folder_.path(), {{"asked", state}, {"command", command}, {"program", kProgram}}, 60.0});
+            runProcess({"zsh", "-f", "complete.zsh"},
+                       {folder_.path(), {{"requested", state}, {"command", command}, {"program", kProgram}}, 60.0});
         EXPECT_EQ(result.exitCode, 0) << result.err;
         EXPECT_EQ(result.err, "");
         return linesOf(result.out);
     };
     const Words commands = commandsIn(runGood({"--help"}));
-    const Words first = told("command", "");
+    const Words first = completions("command", "");
     for (const std::string& command : commands) {
         SCOPED_TRACE(command);
         EXPECT_THAT(first, Contains(StartsWith(command + ":")));
         // "(-o --output)--output=[what it is]:FILE:_files"
         std::set<std::string> names;
-        for (const std::string& spec : told("argument", command)) {
+        for (const std::string& spec : completions("argument", command)) {
             std::smatch found;
             if (std::regex_search(spec, found, std::regex("^(?:\\*|\\([^)]*\\))?(-[-a-z]+)[=+]?\\[")))
                 names.insert(found[1]);
@@ -143,13 +143,13 @@ _tessera
         for (const std::string& option : optionsIn(runGood({command, "--help"})))
             EXPECT_TRUE(names.count(option)) << option;
     }
-    const Words render = told("argument", "render");
+    const Words render = completions("argument", "render");
     EXPECT_THAT(render, Contains(AllOf(StartsWith("--layout="), HasSubstr(":NAME:(exact packed slim)"))));
     EXPECT_THAT(render, Contains(AllOf(StartsWith("(-o --output)--output="), HasSubstr(":FILE:_files"))));
     EXPECT_THAT(render, Contains(StartsWith("*--hook=")));
     EXPECT_THAT(render, Contains(AllOf(StartsWith(":SCENE: _alternative"), HasSubstr("(hall "))));
-    EXPECT_THAT(told("argument", "view"), Contains(StartsWith("::SCENE: _alternative")));
-    EXPECT_THAT(told("argument", "bench"), Contains(StartsWith("*:SCENE: _alternative")));
+    EXPECT_THAT(completions("argument", "view"), Contains(StartsWith("::SCENE: _alternative")));
+    EXPECT_THAT(completions("argument", "bench"), Contains(StartsWith("*:SCENE: _alternative")));
 }
 
 TEST_F(Completion, otherShellsAreNamedAsUnknown) {

@@ -50,19 +50,19 @@ TEST_F(Help, everyCommandExplainsItselfWithExamples) {
     EXPECT_THAT(runGood({"scenes", "--help"}), HasSubstr("Usage: tessera scenes"));
 }
 
-TEST_F(Help, everyOptionWithARangeTellsIt) {
+TEST_F(Help, everyOptionWithARangeReportsIt) {
     std::string text = runGood({"render", "--help"});
     text.resize(std::size_t(
         std::unique(text.begin(), text.end(), [](char a, char b) { return std::isspace(a) && std::isspace(b); }) -
         text.begin()));
     std::ranges::replace(text, '\n', ' '); // lines may break anywhere
-    int told = 0;
+    int count = 0;
     for (const engine::Setting& setting : engine::settingTable()) {
         if (setting.range().empty()) continue;
         EXPECT_THAT(text, HasSubstr(setting.help + " (" + setting.range() + ") [")) << setting.flag;
-        ++told;
+        ++count;
     }
-    EXPECT_GE(told, 8);
+    EXPECT_GE(count, 8);
 }
 
 TEST_F(Help, noArgumentPrintsTheHelp) {
@@ -83,7 +83,7 @@ TEST_F(Help, repeatableOptionsAreMarked) {
     EXPECT_THAT(runGood({"demo", "--help"}), HasSubstr("Usage: tessera demo [SCENE] [options]"));
 }
 
-TEST_F(Help, versionTellsTheCommitAndTheDriver) {
+TEST_F(Help, versionReportsTheCommitAndTheDriver) {
     const auto expectDriver = [](const std::string& text) {
         EXPECT_THAT(text, ContainsRegex("^tessera [0-9]+\\.[0-9]+\\.[0-9]+\ncommit     [^ \n]+\n"));
         EXPECT_THAT(text, AllOf(ContainsRegex("\nrenderer   [^ ]"), ContainsRegex("\nOpenGL     4\\.[5-9]")));
@@ -102,7 +102,7 @@ TEST_F(Help, theSchemaOfScenesHoldsEverySettingAndNoOther) {
     const Json options = Json::parse(runGood({"scenes", "--schema"}))["definitions"]["options"];
     std::set<std::string> keys{"clip", "defaultLight"};
     for (const engine::Setting& setting : engine::settingTable())
-        if (setting.isWishable) keys.emplace(setting.key);
+        if (setting.isRequestable) keys.emplace(setting.key);
     for (const auto& [key, schema] : options["properties"].items()) EXPECT_EQ(keys.erase(key), 1u) << key;
     EXPECT_EQ(keys, std::set<std::string>());
     EXPECT_EQ(options["additionalProperties"], false);

@@ -59,7 +59,7 @@ protected:
     std::string page_;
 };
 
-TEST_F(Manual, itTellsEveryCommandAndEveryOptionOfTheHelp) {
+TEST_F(Manual, itReportsEveryCommandAndEveryOptionOfTheHelp) {
     const std::set<std::string> shared =
         itemsOf(section("SH", "SHARED OPTIONS") + section("SH", "OPTIONS OF THE PROGRAM"));
     for (const std::string& option : optionsIn(runGood({"--help"}))) EXPECT_TRUE(shared.contains(option)) << option;
@@ -72,9 +72,9 @@ TEST_F(Manual, itTellsEveryCommandAndEveryOptionOfTheHelp) {
         std::smatch usage;
         ASSERT_TRUE(std::regex_search(help, usage, std::regex("Usage: ([^\n]+)")));
         EXPECT_THAT(text, HasSubstr("\n" + usage[1].str() + "\n"));
-        std::set<std::string> told = itemsOf(text);
-        told.insert(shared.begin(), shared.end());
-        for (const std::string& option : optionsIn(help)) EXPECT_TRUE(told.contains(option)) << option;
+        std::set<std::string> listed = itemsOf(text);
+        listed.insert(shared.begin(), shared.end());
+        for (const std::string& option : optionsIn(help)) EXPECT_TRUE(listed.contains(option)) << option;
         const std::size_t examples = help.find("\nExamples\n");
         if (examples != help.npos) {
             for (const std::string& line : linesOf(help.substr(examples + 1)))
@@ -85,16 +85,16 @@ TEST_F(Manual, itTellsEveryCommandAndEveryOptionOfTheHelp) {
 
 TEST_F(Manual, whatSettingsSayStandsThereOnce) {
     const std::string text = plain();
-    int told = 0;
+    int listed = 0;
     for (const engine::Setting& setting : engine::settingTable()) {
         if (setting.key == "technique") continue; // its help differs between commands
         const std::string item = fmt::format("\n.TP\n{} {}\n{}", setting.flag, setting.type, setting.help);
         const std::size_t at = text.find(item);
         EXPECT_NE(at, text.npos) << setting.flag;
         EXPECT_EQ(text.find(item, at + 1), text.npos) << setting.flag;
-        ++told;
+        ++listed;
     }
-    EXPECT_GT(told, 30);
+    EXPECT_GT(listed, 30);
 }
 
 TEST_F(Manual, troffFindsNothingToWarnOf) {

@@ -62,7 +62,7 @@ constexpr const char* kTwoAttenuated = R"([
     {"type": "point", "position": [1, 0, 1], "intensity": 8, "falloff": {"type": "attenuation", "C": 0.5, "A": 8}},
     {"type": "point", "position": [-1, 0.5, 1], "intensity": 2, "falloff": {"type": "attenuation", "C": 1}}])";
 
-TEST_F(FrameOptions, aRangeToleranceDropsLightAndPlanAndCompareTellHowMuch) {
+TEST_F(FrameOptions, aRangeToleranceDropsLightAndPlanAndCompareReportHowMuch) {
     writeQuad(kGlossy, kTwoAttenuated);
     const Picture whole = pictureOf({}), cut = pictureOf({"--range-tolerance", "0.5"});
     EXPECT_LT(mean(cut), mean(whole));

@@ -149,7 +149,7 @@ TEST_F(Render, aPictureOfNothingSaysWhy) {
     }
 }
 
-TEST_F(Render, aBlackPictureIsToldSoButNotABlackDebugView) {
+TEST_F(Render, aBlackPictureIsReportedSoButNotABlackDebugView) {
     folder_.write("tri.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     folder_.write("dark.json", R"({"tessera": 1, "include": [{"file": "tri.obj"}],
         "lights": [{"type": "point", "position": [0, 0, 50], "falloff": {"type": "inverse_square", "range": 1}, "intensity": 1, "color": [1, 1, 1]}]})");
@@ -183,7 +183,7 @@ TEST_F(Render, pixelsThatAreNoNumbersAreCounted) {
     EXPECT_THAT(said("1e20"), testing::Not(testing::HasSubstr("pixels are infinite")));
 }
 
-TEST_F(Render, lightsThatTheBudgetLeavesWithoutShadowsAreToldOnce) {
+TEST_F(Render, lightsThatTheBudgetLeavesWithoutShadowsAreReportedOnce) {
     const auto said = [&](const Words& more) {
         Words words{"render", "lattice", "--lights", "64",      "--shadows", "all", "--shadow-filter", "hard",
                     "--size", "16x9",    "-o",       "f%d.png", "--frames",  "2",   "--shadow-budget"};
@@ -197,7 +197,7 @@ TEST_F(Render, lightsThatTheBudgetLeavesWithoutShadowsAreToldOnce) {
                                       "[0-9]+ lights, which cast no shadows; give more --shadow-budget\n"));
     EXPECT_THAT(said({"0.01", "--view", "shadow"}), testing::HasSubstr("cast no shadows"));
     EXPECT_EQ(said({"0.01", "--view", "normal"}), "") << "it shows no shadows";
-    EXPECT_EQ(said({"1"}), "") << "smaller maps alone are told by plan";
+    EXPECT_EQ(said({"1"}), "") << "smaller maps alone are reported by plan";
 }
 
 TEST_F(Render, aViewOfShadowsWithoutAnySaysWhy) {
@@ -221,7 +221,7 @@ TEST_F(Render, aViewOfShadowsWithoutAnySaysWhy) {
     EXPECT_EQ(said({"--view", "shadow", "--shadows", "2"}), "");
 }
 
-TEST_F(Render, settingsOfShadowsThatChangeNothingAreTold) {
+TEST_F(Render, settingsOfShadowsThatChangeNothingAreReported) {
     const auto said = [&](const Words& more) {
         Words words{"render", "lattice", "--lights", "64", "--size", "16x9", "-o", "a.png"};
         words.insert(words.end(), more.begin(), more.end());
@@ -231,10 +231,10 @@ TEST_F(Render, settingsOfShadowsThatChangeNothingAreTold) {
         said({"--shadow-width", "5"}),
         "tessera: warning: --shadow-width changes nothing. There are no shadows: no light in view has castsShadow\n");
     EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "hard", "--shadow-width", "5"}),
-              "tessera: warning: --shadow-width changes nothing. Only pcf heeds it; the shadow filter is hard\n");
+              "tessera: warning: --shadow-width changes nothing. Only pcf uses it; the shadow filter is hard\n");
     EXPECT_THAT(said({"--shadows", "all", "--shadow-budget", "2"}),
                 testing::HasSubstr(
-                    "--shadow-budget changes nothing. Only hard, pcf and pcss heed it; the shadow filter is traced"));
+                    "--shadow-budget changes nothing. Only hard, pcf and pcss use it; the shadow filter is traced"));
     EXPECT_THAT(said({"--shadows", "all", "--shadow-samples", "4"}),
                 testing::HasSubstr("no light with a size casts one"));
     EXPECT_THAT(said({"--shadows", "all", "--shadow-filter", "pcf", "--shadow-cascades", "2"}),
@@ -248,7 +248,7 @@ TEST_F(Render, settingsOfShadowsThatChangeNothingAreTold) {
     EXPECT_EQ(said({"--shadows", "all", "--shadow-filter", "pcf", "--shadow-width", "5", "--shadow-budget", "2"}), "");
 }
 
-TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
+TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreReported) {
     writeQuad(R"({"name": "paint", "model": "lambert"})",
               R"([{"type": "directional", "direction": [0, 0, -1], "intensity": 1}])");
     const auto warned = [&](const std::string& why) { return "tessera: warning: " + why + "\n"; };
@@ -260,7 +260,7 @@ TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
     };
     const std::string none = " changes nothing. There is no environment; choose a map";
     const std::string samples =
-        warned("--environment-samples changes nothing. Only sampled heeds it; the environment light is split_sum");
+        warned("--environment-samples changes nothing. Only sampled uses it; the environment light is split_sum");
     const Words studio{"--environment", "studio", "--environment-samples", "4"};
     for (const char* command : {"render", "plan"}) {
         SCOPED_TRACE(command);
@@ -278,7 +278,7 @@ TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
                   warned("--refraction changes nothing. No material that transmits has a thickness or is rough"));
         EXPECT_EQ(said({"--technique", "forward", "--layout", "packed"}, command),
                   warned("--layout changes nothing. Only deferred, deferred_volumes, tiled_deferred and "
-                         "clustered_deferred heed it; the technique is forward"));
+                         "clustered_deferred use it; the technique is forward"));
         EXPECT_EQ(said({"--backdrop", "off", "--view", "normal"}, command), "") << "the same options serve all views";
         const Words studioBehind{"--environment", "studio", "--background", "1,0,0"};
         EXPECT_EQ(said(studioBehind, command),
@@ -301,7 +301,7 @@ TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
     EXPECT_EQ(said({"--technique", "reference", "--backdrop", "blurred"}), warned("--backdrop" + none));
     const std::string depth = "--glass-depth changes nothing. ";
     EXPECT_EQ(said({"--glass-depth", "2"}),
-              warned(depth + "The reference alone heeds it; draw by --technique reference, or compare with it"));
+              warned(depth + "The reference alone uses it; draw by --technique reference, or compare with it"));
     EXPECT_EQ(said({"--glass-depth", "0"}), warned(depth + "No material that transmits has a thickness or is rough"));
     EXPECT_EQ(said({"--glass-depth", "2", "--technique", "reference"}),
               warned(depth + "No material that transmits has a thickness or is rough"));
@@ -309,7 +309,7 @@ TEST_F(Render, settingsOfAnEnvironmentAndOfTechniquesThatChangeNothingAreTold) {
                 testing::HasSubstr(depth + "No material that transmits"));
 }
 
-TEST_F(Render, thatAMapIsFilteredIsToldOnceAndNotAtAllWhereItIsQuiet) {
+TEST_F(Render, thatAMapIsFilteredIsReportedOnceAndNotAtAllWhereItIsQuiet) {
     writeQuad(R"({"name": "paint", "model": "lambert"})", "[]");
     runGood({"render", "room", "--size", "16x8", "-o", "map.exr"}); // so small a map is filtered quickly
     const auto said = [&](const char* command, const char* cache, const Words& more) {
@@ -326,7 +326,7 @@ TEST_F(Render, thatAMapIsFilteredIsToldOnceAndNotAtAllWhereItIsQuiet) {
     EXPECT_EQ(said("render", "third", {"-o", "a.png", "--quiet"}), "");
 }
 
-TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreTold) {
+TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreReported) {
     const auto said = [&](const std::string& scene, const Words& more) {
         Words words{"render", scene, "--size", "16x9", "-o", "a.png"};
         words.insert(words.end(), more.begin(), more.end());
@@ -337,12 +337,12 @@ TEST_F(Render, settingsOfSubsurfaceScatteringThatChangeNothingAreTold) {
         "a scene file\n";
     EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "wrap", "--diffusion-texels", "64"}),
               "tessera: warning: --subsurface" + none + "tessera: warning: --diffusion-texels" + none);
-    EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "none"}), "") << "asks for what there is";
+    EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "none"}), "") << "requests what there is";
     EXPECT_EQ(said("lattice", {"--lights", "64", "--subsurface", "wrap", "--view", "normal"}), "")
         << "the same options serve all views";
     EXPECT_EQ(said("diffusion_truth", {"--subsurface", "wrap", "--shadows", "none"}), "");
     EXPECT_EQ(said("diffusion_truth", {"--subsurface", "wrap", "--shadows", "none", "--diffusion-half", "on"}),
-              "tessera: warning: --diffusion-half changes nothing. Light spreads over no surface; give --subsurface "
+              "tessera: warning: --diffusion-half changes nothing. No surface diffuses light; give --subsurface "
               "texture_space_diffusion\n");
     EXPECT_THAT(said("diffusion_truth", {"--diffusion-texels", "64", "--technique", "reference"}),
                 testing::HasSubstr("--diffusion-texels changes nothing. The reference integrates over the surface\n"));

@@ -11,7 +11,7 @@ using app::kToleranceMissed;
 
 class StressCommand : public Cli {};
 
-TEST_F(StressCommand, aCaseTellsItsFiguresOnTheTerminalAndAsJson) {
+TEST_F(StressCommand, aCaseReportsItsFiguresOnTheTerminalAndAsJson) {
     const std::string table = runGood({"stress", "--quick", "--case", "terms", "--case", "scene/light_place",
                                        "--technique", "forward,deferred", "--json", "s.json"});
     EXPECT_THAT(table, testing::HasSubstr("terms/fresnel"));

@@ -28,7 +28,7 @@ TEST_F(ContextTest, capabilitiesNameTheDriverAndItsLimits) {
 }
 
 /// Otherwise ./test --driver would test the first driver again if the second cannot be loaded.
-TEST_F(ContextTest, aDriverThatTheEnvironmentAsksForIsTheOneInUse) {
+TEST_F(ContextTest, aDriverThatTheEnvironmentRequestsIsTheOneInUse) {
     const char* const driver = std::getenv("MESA_LOADER_DRIVER_OVERRIDE");
     if (!driver) GTEST_SKIP() << "the environment names no driver";
     EXPECT_THAT(context().capabilities().renderer, testing::StartsWith(driver));

@@ -235,7 +235,7 @@ TEST_F(GraphBackendTest, aGrowingBufferIsReplacedSeldomAndOnlyWhereItIsTooSmall)
     }
     EXPECT_LE(replaced, 21) << "a hundredfold by quarters: log 100 / log 1.25";
     const std::size_t second = backend.growingBuffer("list", 2, 16).bytes();
-    EXPECT_EQ(backend.poolBytes(), held + second) << "buffers of one name are told apart by their number";
+    EXPECT_EQ(backend.poolBytes(), held + second) << "buffers of one name are distinguished by their number";
 }
 
 TEST_F(GraphBackendTest, profiledPassesHaveATimeThatHoldsTheirWork) {

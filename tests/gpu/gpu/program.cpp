@@ -63,7 +63,7 @@ TEST_F(ProgramTest, aStageThatSamplesMoreTexturesThanTheDriverOffersIsRefused) {
     }
 }
 
-TEST_F(ProgramTest, blocksTellTheirMembersAndTheirSize) {
+TEST_F(ProgramTest, blocksReportTheirMembersAndTheirSize) {
     const Program program("blocks", computeStage(R"(
 struct Light { vec3 positionVS; float rangeMetres; vec4 weights[2]; };
 layout(binding = 2, std140) uniform View { mat4 clipFromView; float timeSeconds; vec4 planes[3]; };
@@ -113,7 +113,7 @@ TEST_F(ProgramTest, oneOfTheSameNameAndSourcesIsCompiledOnceWhereItsContextKeeps
     {
         const auto plain = Context::create({.kind = ContextKind::Egl});
         const Program one("kept", sources), two("kept", sources);
-        EXPECT_NE(one.id(), two.id()) << "nobody asked this context to keep them";
+        EXPECT_NE(one.id(), two.id()) << "this context is not set to keep them";
         plain->keepPrograms();
         const Program three("kept", sources);
         EXPECT_EQ(Program("kept", sources).id(), three.id());

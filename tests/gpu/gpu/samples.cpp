@@ -16,7 +16,7 @@ TEST_F(Samples, everyNumberThatIsOfferedMakesRenderTargets) {
     ASSERT_FALSE(given.empty());
     EXPECT_EQ(given.front(), std::vector<glm::vec2>{glm::vec2(0.5f)});
     EXPECT_TRUE(std::ranges::is_sorted(given, {}, &std::vector<glm::vec2>::size));
-    EXPECT_GE(given.back().size(), 4u) << "OpenGL 4.5 asks for 4 samples of colour textures (table 23.66)";
+    EXPECT_GE(given.back().size(), 4u) << "OpenGL 4.5 requires 4 samples of colour textures (table 23.66)";
     for (const std::vector<glm::vec2>& positions : given) {
         const int samples = int(positions.size());
         SCOPED_TRACE(samples);

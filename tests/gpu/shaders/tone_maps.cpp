@@ -177,7 +177,7 @@ private:
 TEST_F(ToneMaps, saturatedColoursGetTheirPublishedValues) {
     test::ShaderBench bench;
     const double off = worst(bench);
-    fmt::print("the worst is {:.3g} of what is allowed\n", off);
+    fmt::print("the worst is {:.3g} of the bound\n", off);
     EXPECT_LE(off, 1.0);
 }
 

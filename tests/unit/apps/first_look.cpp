@@ -10,10 +10,10 @@ namespace {
 
 using engine::Technique;
 
-scenes::Scene wishing(const std::map<std::string, scenes::Wish>& wishes = {}) {
+scenes::Scene sceneRequesting(const std::map<std::string, scenes::OptionValue>& requested = {}) {
     scenes::Scene scene;
     scene.cameras.emplace_back().name = "front";
-    scene.options.wishes.insert(wishes.begin(), wishes.end());
+    scene.options.requested.insert(requested.begin(), requested.end());
     return scene;
 }
 
@@ -31,7 +31,7 @@ frame::GBufferLayout layoutNamed(std::string_view name) {
 }
 
 TEST(FirstLook, preferencesApplyWithoutOptionsOfUserAndScene) {
-    const viewer::Look look = firstLook({}, remembered(), wishing(), "x.json").look;
+    const viewer::Look look = firstLook({}, remembered(), sceneRequesting(), "x.json").look;
     EXPECT_EQ(look.technique, Technique::ForwardPlus);
     EXPECT_EQ(look.settings.layout, layoutNamed("slim"));
     EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Agx);
@@ -41,19 +41,19 @@ TEST(FirstLook, preferencesApplyWithoutOptionsOfUserAndScene) {
 }
 
 TEST(FirstLook, theScenesOptionsOverridePreferences) {
-    const scenes::Scene scene = wishing({{"technique", "forward"}, {"layout", "exact"}, {"toneMap", "aces"}});
+    const scenes::Scene scene = sceneRequesting({{"technique", "forward"}, {"layout", "exact"}, {"toneMap", "aces"}});
     const viewer::Look look = firstLook({}, remembered(), scene, "x.json").look;
     EXPECT_EQ(look.technique, Technique::Forward);
     EXPECT_EQ(look.settings.layout, layoutNamed("exact"));
     EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Aces);
     EXPECT_EQ(look.settings.samples, 4) << "of which it says nothing";
     EXPECT_FALSE(look.settings.culling.tilePixels) << "forward has no tiles";
-    EXPECT_EQ(viewer::asked(look).settings.culling.tilePixels, 32);
+    EXPECT_EQ(viewer::requested(look).settings.culling.tilePixels, 32);
 }
 
 TEST(FirstLook, preferencesOverrideWhatTheSceneWasGivenByDefault) {
-    scenes::Scene scene = wishing({{"toneMap", "khronos_neutral"}});
-    scene.supplied.wishes = {"toneMap"};
+    scenes::Scene scene = sceneRequesting({{"toneMap", "khronos_neutral"}});
+    scene.supplied.requested = {"toneMap"};
     EXPECT_EQ(firstLook({}, remembered(), scene, "x.glb").look.settings.toneMap, frame::ToneMap::Agx);
     EXPECT_EQ(firstLook({}, {}, scene, "x.glb").look.settings.toneMap, frame::ToneMap::KhronosNeutral);
 }
@@ -61,18 +61,18 @@ TEST(FirstLook, preferencesOverrideWhatTheSceneWasGivenByDefault) {
 TEST(FirstLook, theCommandLineOverridesSceneAndPreferences) {
     FrameOptions said;
     said.settings = {{"technique", "deferred"}, {"toneMap", "aces"}, {"samples", "1"}};
-    const viewer::Look look = firstLook(said, remembered(), wishing({{"technique", "forward"}}), "x.json").look;
+    const viewer::Look look = firstLook(said, remembered(), sceneRequesting({{"technique", "forward"}}), "x.json").look;
     EXPECT_EQ(look.technique, Technique::Deferred);
     EXPECT_EQ(look.settings.toneMap, frame::ToneMap::Aces);
     EXPECT_EQ(look.settings.samples, 1);
-    EXPECT_EQ(viewer::asked(look).settings.samples, 1);
+    EXPECT_EQ(viewer::requested(look).settings.samples, 1);
 }
 
 TEST(FirstLook, aRememberedNameThatThereIsNoMoreIsAsIfNothingWere) {
     viewer::Preferences preferences;
     preferences.settings = {{"technique", "raster_of_old"}, {"tile", "7"}, {"samples", "3"}, {"toneMap", "agx"}};
-    const viewer::Look look = firstLook({}, preferences, wishing(), "x.json").look;
-    viewer::Look expected = firstLook({}, {}, wishing(), "x.json").look;
+    const viewer::Look look = firstLook({}, preferences, sceneRequesting(), "x.json").look;
+    viewer::Look expected = firstLook({}, {}, sceneRequesting(), "x.json").look;
     expected.settings.toneMap = frame::ToneMap::Agx;
     EXPECT_EQ(look, expected);
 }
@@ -81,8 +81,8 @@ TEST(FirstLook, optionsThatNameThingsOfTheFirstSceneDoNotApplyToAnother) {
     FrameOptions said;
     said.settings = {{"camera", "side"}, {"solo", "3"}, {"technique", "forward"}};
     said.pose.fovYDegrees = 30.0;
-    EXPECT_THROW(firstLook(said, {}, wishing(), "x.json"), InputError);
-    const viewer::FirstLook first = firstLook(forAnyScene(said), {}, wishing(), "x.json");
+    EXPECT_THROW(firstLook(said, {}, sceneRequesting(), "x.json"), InputError);
+    const viewer::FirstLook first = firstLook(forAnyScene(said), {}, sceneRequesting(), "x.json");
     EXPECT_EQ(first.look.technique, Technique::Forward);
     EXPECT_EQ(first.look.settings.camera, 0);
     EXPECT_FALSE(first.look.settings.soloLight);

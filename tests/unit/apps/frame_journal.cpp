@@ -45,7 +45,7 @@ TEST_F(FrameJournals, aFrameIsFinishedAsItsSettingsMadeItAndNotOtherwise) {
     EXPECT_FALSE(isFinished(1, kOthers));
     EXPECT_FALSE(isFinished(2));
     folder_.write("f_02.png", "a picture");
-    EXPECT_FALSE(isFinished(2)) << "a picture of the same bytes that nobody recorded";
+    EXPECT_FALSE(isFinished(2)) << "an unrecorded picture of the same bytes";
     for (const char* other : {"a pict", "a picturE", "", "a picture and more"}) {
         folder_.write("f_01.png", other);
         EXPECT_FALSE(isFinished(1)) << other;

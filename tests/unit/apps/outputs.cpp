@@ -54,10 +54,10 @@ TEST(Outputs, aFileInALinkedFolderIsTheOneInTheFolderItself) {
 TEST(Outputs, onlyRegisteredFilesAreWritten) {
     Outputs outputs({"a.json"});
     outputs.addFolder("parts");
-    for (const char* told : {"a.json", "./a.json", "-", "", "/dev/null", "parts/b.json"})
-        EXPECT_EQ(refusal([&] { outputs.at(told); }), "") << told;
-    for (const char* untold : {"b.json", "parts", "parts2/b.json"})
-        EXPECT_THROW(outputs.at(untold), std::logic_error) << untold;
+    for (const char* registered : {"a.json", "./a.json", "-", "", "/dev/null", "parts/b.json"})
+        EXPECT_EQ(refusal([&] { outputs.at(registered); }), "") << registered;
+    for (const char* unregistered : {"b.json", "parts", "parts2/b.json"})
+        EXPECT_THROW(outputs.at(unregistered), std::logic_error) << unregistered;
 }
 
 } // namespace

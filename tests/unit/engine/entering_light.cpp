@@ -42,8 +42,8 @@ protected:
     /// Returns the diffusion key of the first object; 0 without diffusion.
     std::uint64_t keyOf(const ViewRequest& request) const {
         const frame::PreparedView prepared = prepareView(scene_, request.technique, request.settings, bounds_);
-        if (prepared.spreadingViews.empty()) return 0;
-        return frame::diffusionKey(scene_, prepared.spreadingObjects[0], prepared.spreadingViews[0], 0);
+        if (prepared.diffusionViews.empty()) return 0;
+        return frame::diffusionKey(scene_, prepared.diffusionObjects[0], prepared.diffusionViews[0], 0);
     }
 
     scenes::Scene scene_;
@@ -63,7 +63,7 @@ TEST_F(EnteringLight, isKeptWhateverOtherSettingsSay) {
                 ViewRequest request;
                 request.technique = technique.technique;
                 setting.read(request, value, {{}, &scene_});
-                if (!setting.isTaken(request)) continue;
+                if (!setting.isSupported(request)) continue;
                 EXPECT_EQ(keyOf(request), usual_) << setting.key << " " << value << " " << technique.name;
                 ++tried;
                 break;
@@ -73,7 +73,7 @@ TEST_F(EnteringLight, isKeptWhateverOtherSettingsSay) {
     EXPECT_GT(tried, 30u);
 }
 
-TEST_F(EnteringLight, isFoundAnewForEverySettingOfHowItSpreads) {
+TEST_F(EnteringLight, isFoundAnewForEverySettingOfItsDiffusion) {
     std::size_t rows = 0;
     scenes::visitFields(frame::kDiffusionFields, [&](const auto& field) {
         const auto setting = std::ranges::find(settingTable(), std::string_view(field.name), &Setting::key);

@@ -108,19 +108,19 @@ TEST(PlanFrame, texturesThatADriverHasNoRoomForAreNamedWithTheReason) {
         for (scenes::TextureUse& use : material.textures) use.image = 0;
     }
     if (scene.images.empty()) scene.images.push_back({"texel", {}, 1, 1, std::vector<std::byte>(4)});
-    const auto told = [&](const frame::FrameSettings& settings) {
+    const auto reported = [&](const frame::FrameSettings& settings) {
         return choiceOf(planFrame(scene, Technique::Deferred, settings), "textures").why;
     };
     frame::FrameSettings settings;
-    EXPECT_EQ(told(settings), "");
+    EXPECT_EQ(reported(settings), "");
     EXPECT_EQ(whyLeftOut(scene, "film-thickness texture", settings), "not left out");
     settings.texturesAStage = TEXTURE_UNITS_GUARANTEED;
-    EXPECT_THAT(told(settings), testing::HasSubstr("samples at most 16 textures"));
-    EXPECT_THAT(told(settings), testing::EndsWith("iridescence texture, film-thickness texture"));
+    EXPECT_THAT(reported(settings), testing::HasSubstr("samples at most 16 textures"));
+    EXPECT_THAT(reported(settings), testing::EndsWith("iridescence texture, film-thickness texture"));
     EXPECT_EQ(whyLeftOut(scene, "film-thickness texture", settings),
               "a shader of this driver samples too few textures");
     settings.prune = false;
-    EXPECT_THAT(told(settings), testing::EndsWith("iridescence texture, film-thickness texture"));
+    EXPECT_THAT(reported(settings), testing::EndsWith("iridescence texture, film-thickness texture"));
 }
 
 TEST(PlanFrame, theOneReasonIsGivenWhyThereAreNoShadows) {
@@ -156,7 +156,7 @@ TEST(PlanFrame, theOneReasonIsGivenWhyNoShadowIsSoft) {
     frame::FrameSettings settings;
     EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "not left out");
     settings.shadowFilter = frame::ShadowFilter::Pcf;
-    EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "the shadow filter pcf heeds no sizes of lights");
+    EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "the shadow filter pcf ignores the sizes of lights");
     settings.shadowFilter = frame::ShadowFilter::Pcss;
     scene.lights.front().radiusMetres = 0.0f;
     EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "no light in view that casts shadows has a size");
@@ -164,85 +164,87 @@ TEST(PlanFrame, theOneReasonIsGivenWhyNoShadowIsSoft) {
     EXPECT_EQ(whyLeftOut(scene, "soft shadows", settings), "there are no shadows");
 }
 
-TEST(PlanFrame, tellsWhatSpreadingLightCosts) {
+TEST(PlanFrame, reportsWhatDiffusionCosts) {
     frame::FrameSettings settings;
     settings.diffusion.sideTexels = 128;
-    const auto told = [&](const char* scene) {
-        return choiceOf(planFrame(scenes::loadScene(scene), Technique::Deferred, settings), "spread light");
+    const auto reported = [&](const char* scene) {
+        return choiceOf(planFrame(scenes::loadScene(scene), Technique::Deferred, settings), "diffused light");
     };
-    const graph::Plan::Choice choice = told("diffusion_truth");
+    const graph::Plan::Choice choice = reported("diffusion_truth");
     // An atlas of two cells side by side plus a row of texels, and two textures per object; 16 bytes per texel.
     EXPECT_EQ(choice.chosen, "2 objects, 128 texels a side, 1.504 MiB kept");
     EXPECT_THAT(choice.why, testing::HasSubstr("levels"));
-    EXPECT_EQ(told("room").what, "");
+    EXPECT_EQ(reported("room").what, "");
 }
 
-TEST(PlanFrame, lightThatIsNarrowerThanATexelIsToldWithTheUnitOfTheModel) {
+TEST(PlanFrame, lightThatIsNarrowerThanATexelIsReportedWithTheUnitOfTheModel) {
     scenes::Scene scene = scenes::loadScene("diffusion_truth");
-    const auto told = [&] { return choiceOf(planFrame(scene, Technique::Deferred, {}), "width of spread light").why; };
-    EXPECT_EQ(told(), "") << "a texel is 0.04 mm";
+    const auto reported = [&] {
+        return choiceOf(planFrame(scene, Technique::Deferred, {}), "width of diffused light").why;
+    };
+    EXPECT_EQ(reported(), "") << "a texel is 0.04 mm";
     for (scenes::Material& material : scene.materials) material.subsurface.scaleMetres = 1e3f;
-    const std::string why = told();
+    const std::string why = reported();
     for (const char* part :
-         {"light does not spread over mesh '", "(material 'skin')",
+         {"light is not diffused over mesh '", "(material 'skin')",
           "its widest Gaussian is 2.72 mm, and a texel of its atlas", "scaleMetres", "nor over 1 other object"})
         EXPECT_THAT(why, testing::HasSubstr(part));
     for (scenes::Material& material : scene.materials) material.subsurface.method = scenes::SubsurfaceMethod::DepthMap;
-    EXPECT_EQ(told(), "");
+    EXPECT_EQ(reported(), "");
 }
 
-TEST(PlanFrame, samplesOfAreaLightsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
+TEST(PlanFrame, samplesOfAreaLightsThatLoopsOfMesaMayEndAreReportedWithTheRemedy) {
     const scenes::Scene scene = scenes::loadScene("lamps");
-    const auto told = [&](int samples) {
+    const auto reported = [&](int samples) {
         frame::FrameSettings settings;
         settings.area = {frame::AreaLights::Sampled, samples};
         return choiceOf(planFrame(scene, Technique::Forward, settings), "loops of lights").why;
     };
-    EXPECT_EQ(told(16), "");
-    EXPECT_THAT(told(256), testing::HasSubstr("which gives NaN; give fewer --area-samples"));
+    EXPECT_EQ(reported(16), "");
+    EXPECT_THAT(reported(256), testing::HasSubstr("which gives NaN; give fewer --area-samples"));
 }
 
-TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreToldWithTheRemedy) {
+TEST(PlanFrame, shadowsThatLoopsOfMesaMayEndAreReportedWithTheRemedy) {
     frame::FrameSettings settings;
-    const auto told = [&](const scenes::Scene& scene) {
+    const auto reported = [&](const scenes::Scene& scene) {
         return choiceOf(planFrame(scene, Technique::Deferred, settings), "loops of lights");
     };
     // Per light two times 1024 texels, one for the face and one for the light; 116 for the loops over the 64 lights.
     settings.shadowFilter = frame::ShadowFilter::Pcss;
     settings.shadowSamples = 1024;
-    EXPECT_EQ(told(softLights(64)).chosen, "up to 131316 iterations");
-    EXPECT_EQ(told(softLights(64)).why,
+    EXPECT_EQ(reported(softLights(64)).chosen, "up to 131316 iterations");
+    EXPECT_EQ(reported(softLights(64)).why,
               "shadows of 64 lights take up to 131316 iterations of a shader's loops where all reach a pixel, and Mesa "
               "ends those after 65535, which gives NaN; give fewer --shadow-samples or shadows to fewer lights "
               "(--shadows N)");
     settings.softwareBackend = false;
-    EXPECT_EQ(told(softLights(64)).chosen, "");
+    EXPECT_EQ(reported(softLights(64)).chosen, "");
     settings.softwareBackend = true;
     settings.view = frame::DebugView::Normal;
-    EXPECT_EQ(told(softLights(64)).chosen, "");
+    EXPECT_EQ(reported(softLights(64)).chosen, "");
     settings.view = frame::DebugView::Final;
     settings.shadowSamples = 16;
-    EXPECT_EQ(told(softLights(64)).chosen, "");
+    EXPECT_EQ(reported(softLights(64)).chosen, "");
     settings.shadowFilter = frame::ShadowFilter::Traced;
     settings.shadowSamples = 1024;
-    EXPECT_THAT(told(softLights(64)).why, testing::HasSubstr("give fewer --shadow-samples or"));
+    EXPECT_THAT(reported(softLights(64)).why, testing::HasSubstr("give fewer --shadow-samples or"));
     settings.shadowFilter = frame::ShadowFilter::Pcf;
-    EXPECT_EQ(told(softLights(1000)).chosen, "") << "21 iterations a light with 3 texels";
+    EXPECT_EQ(reported(softLights(1000)).chosen, "") << "21 iterations a light with 3 texels";
     settings.shadowMaps.widthTexels = 7;
-    EXPECT_THAT(told(softLights(1000)).why, testing::HasSubstr("give a smaller --shadow-width or"));
+    EXPECT_THAT(reported(softLights(1000)).why, testing::HasSubstr("give a smaller --shadow-width or"));
     // A diffusion view has its own lights.
     frame::PreparedView whole;
-    whole.spreadingViews = {prepareView(softLights(1000), Technique::Deferred, settings)};
-    whole.spreadingObjects.emplace_back().name = "mesh 'bust'";
+    whole.diffusionViews = {prepareView(softLights(1000), Technique::Deferred, settings)};
+    whole.diffusionObjects.emplace_back().name = "mesh 'bust'";
     EXPECT_THAT(cutShadows(whole).why, testing::StartsWith("when lighting mesh 'bust' for diffusion: shadows of 1000"));
-    whole.spreadingViews.clear();
+    whole.diffusionViews.clear();
     EXPECT_EQ(cutShadows(whole).why, "");
     // Every cascade counts.
     scenes::Scene suns = softLights(300);
     for (scenes::Light& light : suns.lights) light.type = scenes::LightType::Directional;
-    EXPECT_NE(told(suns).chosen, "");
+    EXPECT_NE(reported(suns).chosen, "");
     settings.shadowMaps.cascades = 1;
-    EXPECT_EQ(told(suns).chosen, "");
+    EXPECT_EQ(reported(suns).chosen, "");
 }
 
 TEST(PlanFrame, everyRoundOverTheLightsIsAPassThatWaitsForTheOneBefore) {
@@ -281,10 +283,10 @@ TEST(PlanFrame, twoViewsOfAFrameReuseMemory) {
 TEST(PlanFrame, theViewsOfAFrameShareTheScenesBuffersAndWhatAnApplicationKeeps) {
     const scenes::Scene scene = scenes::loadScene("hall");
     const std::vector<ViewRequest> views(2);
-    std::vector<std::size_t> asked;
+    std::vector<std::size_t> requested;
     graph::TextureHandle kept;
     const auto add = [&](graph::Graph& graph, std::size_t view, const frame::FrameSpec&, const OpaquePicture& opaque) {
-        asked.push_back(view);
+        requested.push_back(view);
         if (view > 0) return opaque.radiance;
         struct Written {
             graph::TextureHandle texture;
@@ -297,14 +299,14 @@ TEST(PlanFrame, theViewsOfAFrameShareTheScenesBuffersAndWhatAnApplicationKeeps) 
     };
     const AfterOpaque after{false, add};
     const graph::Plan plan = planViews(scene, views, after);
-    EXPECT_THAT(asked, testing::ElementsAre(0u, 1u));
+    EXPECT_THAT(requested, testing::ElementsAre(0u, 1u));
     for (const char* name : {"indices", "materials", "kept"}) {
         EXPECT_EQ(std::ranges::count(plan.resources, name, &graph::Plan::Resource::name), 1) << name;
         EXPECT_EQ(std::ranges::count(plan.resources, name + std::string(" (2)"), &graph::Plan::Resource::name), 0);
     }
 }
 
-TEST(PlanFrame, aPlanWithPassesOfAnApplicationTellsWhatTheyStoreAndWhichAreLeftOut) {
+TEST(PlanFrame, aPlanWithPassesOfAnApplicationReportsWhatTheyStoreAndWhichAreLeftOut) {
     const scenes::Scene scene = scenes::loadScene("hall");
     const ViewRequest view{Technique::Forward, {}};
     const auto add = [](graph::Graph& graph, std::size_t, const frame::FrameSpec& spec, const OpaquePicture& opaque) {
@@ -314,14 +316,14 @@ TEST(PlanFrame, aPlanWithPassesOfAnApplicationTellsWhatTheyStoreAndWhichAreLeftO
         const auto setup = [&](graph::PassBuilder& pass, Data& data) {
             data.texture = pass.create("unread", spec.texture(graph::Format::Rgba32Float));
         };
-        graph.addPass<Data>("nobody_reads_it", setup, [](const Data&, const graph::PassContext&) {});
+        graph.addPass<Data>("unread_pass", setup, [](const Data&, const graph::PassContext&) {});
         graph.output(opaque.gbuffer.value().textures.front());
         return opaque.radiance;
     };
     const graph::Plan plan = planViews(scene, {&view, 1}, {true, add});
     EXPECT_GT(counterOf(plan, "gbufferBytesPerPixel"), 0u);
     EXPECT_THAT(plan.leftOut,
-                testing::Contains(testing::Field(&graph::Plan::LeftOut::what, testing::HasSubstr("nobody_reads_it"))));
+                testing::Contains(testing::Field(&graph::Plan::LeftOut::what, testing::HasSubstr("unread_pass"))));
 }
 
 TEST(PlanFrame, aFrameOfViewsLeavesOutChoosesAndCountsWhatItsViewsDo) {

@@ -35,7 +35,7 @@ std::string said(const scenes::Scene& scene, double tolerance) {
     return "";
 }
 
-TEST(RangeTolerance, thePlanTellsWhichLightsItEndsAndWhere) {
+TEST(RangeTolerance, thePlanReportsWhichLightsItEndsAndWhere) {
     const scenes::Scene scene = sceneWith({attenuated(8.0f, {0, 0, 1}), attenuated(8.0f, {0, 0, 4}),
                                            attenuated(1.0f, {2, 1, 0}), attenuated(1.0f, {1, 0, 0}), scenes::Light()});
     EXPECT_EQ(said(scene, 0.5), "0.5: 2 lights with falloff by A B C or from an area made finite, radii 2 m to 4 m; 1 "

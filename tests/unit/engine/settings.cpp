@@ -89,7 +89,7 @@ TEST(Settings, theTextOfAValueIsReadAsTheSameOne) {
     }
 }
 
-TEST(Settings, theDefaultIsThatOfTheStructAndIsTakenByEveryTechnique) {
+TEST(Settings, theDefaultIsThatOfTheStructAndIsSupportedByEveryTechnique) {
     const scenes::Scene scene = sceneOfTwoCameras();
     for (const Setting& setting : settingTable()) {
         SCOPED_TRACE(setting.name);
@@ -100,7 +100,7 @@ TEST(Settings, theDefaultIsThatOfTheStructAndIsTakenByEveryTechnique) {
         request = changedIn(setting, scene);
         setting.reset(request);
         EXPECT_EQ(request, ViewRequest());
-        for (const TechniqueInfo& info : techniqueTable()) EXPECT_TRUE(setting.isTaken({info.technique, {}}));
+        for (const TechniqueInfo& info : techniqueTable()) EXPECT_TRUE(setting.isSupported({info.technique, {}}));
     }
 }
 
@@ -115,8 +115,8 @@ TEST(Settings, everyRowHasNamesOfItsOwnAndWordsForHelp) {
         EXPECT_TRUE(setting.group == "Frame" || setting.group == "Environment" || setting.group == "Shadows" ||
                     setting.group == "Subsurface scattering" || setting.group == "Display")
             << setting.name;
-        const bool isRefused = setting.takes != nullptr || !setting.refusal.empty();
-        EXPECT_FALSE(isRefused && setting.heeds == nullptr && setting.takes == nullptr) << setting.name;
+        const bool isRefused = setting.supports != nullptr || !setting.refusal.empty();
+        EXPECT_FALSE(isRefused && setting.usedBy == nullptr && setting.supports == nullptr) << setting.name;
         const bool hasWidget = std::holds_alternative<ChoiceKind>(setting.value.kind) || setting.value.open.empty();
         EXPECT_TRUE(setting.panel == SettingPanel::None || hasWidget)
             << setting.name << ": no widget can leave it open";
@@ -196,16 +196,16 @@ TEST(Settings, shadowsAreThoseOfSomeLightsOrOfTheFirstFew) {
     EXPECT_EQ(refusal([&] { shadows.read(request, "1.5"); }),
               "unknown shadows '1.5': give none, scene, all or a number N, for the first N lights");
     scenes::Scene scene;
-    scene.options.wishes["shadows"] = 3.0;
-    takeWishes(scene, "s.json", request);
+    scene.options.requested["shadows"] = 3.0;
+    applyRequestedOptions(scene, "s.json", request);
     EXPECT_EQ(request.settings.shadows, (scenes::ShadowRequest{Kind::First, 3}));
 }
 
 TEST(Settings, ofShadowsSayWithWhichFiltersTheyChangeSomething) {
     ViewRequest request;
-    EXPECT_EQ(settingOf("shadowWidth").whyIdle(request), "Only pcf heeds it; the shadow filter is traced");
+    EXPECT_EQ(settingOf("shadowWidth").whyIdle(request), "Only pcf uses it; the shadow filter is traced");
     EXPECT_EQ(settingOf("shadowBudget").whyIdle(request),
-              "Only hard, pcf and pcss heed it; the shadow filter is traced");
+              "Only hard, pcf and pcss use it; the shadow filter is traced");
     EXPECT_EQ(settingOf("shadowSamples").whyIdle(request), "");
     EXPECT_EQ(settingOf("exposureEV").whyIdle(request), "");
 }
@@ -229,12 +229,12 @@ TEST(Settings, ofAnEnvironmentSayWhereASceneHasNone) {
 TEST(Settings, ofAnEnvironmentsLightSayWithWhichOfItsWaysTheyChangeSomething) {
     const Setting &samples = settingOf("environmentSamples"), &compensation = settingOf("environmentCompensation");
     ViewRequest request;
-    EXPECT_EQ(samples.whyIdle(request), "Only sampled heeds it; the environment light is split_sum");
+    EXPECT_EQ(samples.whyIdle(request), "Only sampled uses it; the environment light is split_sum");
     EXPECT_EQ(compensation.whyIdle(request), "");
     request.settings.environment.light = frame::EnvironmentLight::Sampled;
     for (const Setting* setting : {&samples, &compensation}) EXPECT_EQ(setting->whyIdle(request), "") << setting->name;
     request.settings.environment.light = frame::EnvironmentLight::Off;
-    EXPECT_EQ(compensation.whyIdle(request), "Only split_sum and sampled heed it; the environment light is off");
+    EXPECT_EQ(compensation.whyIdle(request), "Only split_sum and sampled use it; the environment light is off");
     request.settings.environment.light = frame::EnvironmentLight::Sampled;
     request.settings.soloLight = 0;
     for (const Setting* setting : {&samples, &compensation})
@@ -248,7 +248,7 @@ TEST(Settings, ofAreaLightsSayWhereASceneHasNone) {
     const Setting &lights = settingOf("areaLights"), &samples = settingOf("areaSamples");
     ViewRequest request;
     EXPECT_EQ(lights.whyIdle(request), "") << "of no scene";
-    EXPECT_EQ(samples.whyIdle(request), "Only sampled heeds it; the area lights are ltc");
+    EXPECT_EQ(samples.whyIdle(request), "Only sampled uses it; the area lights are ltc");
     request.settings.area.lights = frame::AreaLights::Sampled;
     scenes::Scene scene;
     scene.lights.emplace_back();
@@ -266,7 +266,7 @@ TEST(Settings, areIgnoredWhereEveryTechniqueIgnoresThem) {
     const auto why = [&](const char* key, const std::vector<Technique>& techniques) {
         return settingOf(key).whyIgnored(request, techniques);
     };
-    const std::string able = "Only deferred, deferred_volumes, tiled_deferred and clustered_deferred heed it";
+    const std::string able = "Only deferred, deferred_volumes, tiled_deferred and clustered_deferred use it";
     EXPECT_EQ(why("layout", {Technique::Forward}), able + "; the technique is forward");
     EXPECT_EQ(why("layout", {Technique::ForwardPrepass, Technique::Forward}),
               able + "; the techniques are forward_prepass, forward");
@@ -276,28 +276,28 @@ TEST(Settings, areIgnoredWhereEveryTechniqueIgnoresThem) {
     EXPECT_EQ(why("tile", {Technique::Forward}), "") << "it is refused";
     settingOf("culling").read(request, "none");
     EXPECT_EQ(why("culling", {Technique::Forward}), "") << "it is what the technique does";
-    EXPECT_EQ(why("exposureEV", {Technique::Forward}), "") << "every technique heeds it";
+    EXPECT_EQ(why("exposureEV", {Technique::Forward}), "") << "every technique uses it";
     settingOf("layout").reset(request);
-    EXPECT_EQ(why("layout", {Technique::Forward}), "") << "nothing is asked for";
+    EXPECT_EQ(why("layout", {Technique::Forward}), "") << "nothing is requested";
 }
 
 TEST(Settings, aTechniqueRefusesUnsupportedValuesAndNamesThoseThatSupportThem) {
     ViewRequest request{Technique::Forward, {}};
     request.settings.culling.tilePixels = 32;
-    EXPECT_EQ(refusal([&] { requireTaken(request); }),
+    EXPECT_EQ(refusal([&] { requireSupported(request); }),
               "technique forward does not support tile 32, since it has no light lists; tiled_deferred, forward_plus, "
               "clustered_deferred, clustered_forward do");
     request.settings.culling = {culling::Method::Zbin, {}, {}, {}, {}};
-    EXPECT_EQ(refusal([&] { requireTaken(request); }),
+    EXPECT_EQ(refusal([&] { requireSupported(request); }),
               "technique forward does not support culling zbin; clustered_deferred, clustered_forward do");
     request.technique = Technique::ClusteredForward;
-    EXPECT_EQ(refusal([&] { requireTaken(request); }), "");
+    EXPECT_EQ(refusal([&] { requireSupported(request); }), "");
 }
 
 // ---- Settings requested by scenes ----------------------------------------------------------------------------------
 
 /// Converts a setting's text to the value in a scene file.
-scenes::Wish wishOf(const Setting& setting, const std::string& text) {
+scenes::OptionValue optionValueOf(const Setting& setting, const std::string& text) {
     if (text == setting.value.open) return text;
     const auto* choice = std::get_if<ChoiceKind>(&setting.value.kind);
     if (std::holds_alternative<NumberKind>(setting.value.kind) || (choice && choice->ofNumbers)) return std::stod(text);
@@ -307,9 +307,9 @@ scenes::Wish wishOf(const Setting& setting, const std::string& text) {
     return std::vector<double>{size.x, size.y};
 }
 
-ViewRequest wished(const scenes::Scene& scene) {
+ViewRequest requestedBy(const scenes::Scene& scene) {
     ViewRequest request;
-    takeWishes(scene, "s.json", request);
+    applyRequestedOptions(scene, "s.json", request);
     return request;
 }
 
@@ -324,47 +324,47 @@ TEST(Settings, optionsOfASceneApplyAlsoAfterSavingAndFingerprinting) {
     const scenes::SceneOrigin origin = scenes::originOf(base, {}, scene);
     std::set<std::uint64_t> fingerprints{scenes::fingerprint(scene)};
     for (const Setting& setting : settingTable()) {
-        if (!setting.isWishable) continue;
+        if (!setting.isRequestable) continue;
         scene.options = {};
-        const ViewRequest asked = changedIn(setting, scene);
-        const std::string text = setting.text(asked, &scene);
+        const ViewRequest requested = changedIn(setting, scene);
+        const std::string text = setting.text(requested, &scene);
         SCOPED_TRACE(fmt::format("{} {}", setting.key, text));
         if (setting.key == "camera")
             scene.options.camera = text;
         else
-            scene.options.wishes[std::string(setting.key)] = wishOf(setting, text);
-        EXPECT_EQ(wished(scene), asked);
+            scene.options.requested[std::string(setting.key)] = optionValueOf(setting, text);
+        EXPECT_EQ(requestedBy(scene), requested);
         EXPECT_TRUE(fingerprints.insert(scenes::fingerprint(scene)).second);
         const std::filesystem::path file = folder.path() / "saved.json";
         folder.write("saved.json", scenes::sceneText(scene, origin, file));
         const scenes::Scene saved = scenes::loadScene(file.string());
         EXPECT_EQ(saved.options, scene.options);
-        EXPECT_EQ(wished(saved), asked);
+        EXPECT_EQ(requestedBy(saved), requested);
         ViewRequest said;
-        takeWishes(saved, "s.json", said, [&](const Setting& other) { return &other == &setting; });
+        applyRequestedOptions(saved, "s.json", said, [&](const Setting& other) { return &other == &setting; });
         EXPECT_EQ(said, ViewRequest()) << "what the user said goes before";
     }
 }
 
-TEST(Settings, aWishThatCannotBeIsNamedByFileAndKey) {
-    const auto refusedWish = [](const char* key, const scenes::Wish& wish) {
+TEST(Settings, anOptionThatCannotBeIsNamedByFileAndKey) {
+    const auto refusedOption = [](const char* key, const scenes::OptionValue& option) {
         scenes::Scene scene = sceneOfTwoCameras();
-        scene.options.wishes[key] = wish;
-        return refusal([&] { wished(scene); });
+        scene.options.requested[key] = option;
+        return refusal([&] { requestedBy(scene); });
     };
-    EXPECT_EQ(refusedWish("exposure", 1.0),
+    EXPECT_EQ(refusedOption("exposure", 1.0),
               "s.json:/options: an options object has no key 'exposure'; did you mean 'exposureEV'?");
-    EXPECT_THAT(refusedWish("solo", 0.0), HasSubstr("s.json:/options: an options object has no key 'solo'"));
-    EXPECT_EQ(refusedWish("defaultLigth", true),
+    EXPECT_THAT(refusedOption("solo", 0.0), HasSubstr("s.json:/options: an options object has no key 'solo'"));
+    EXPECT_EQ(refusedOption("defaultLigth", true),
               "s.json:/options: an options object has no key 'defaultLigth'; did you mean 'defaultLight'?");
-    EXPECT_EQ(refusedWish("size", std::vector<double>{1.5, 1}),
+    EXPECT_EQ(refusedOption("size", std::vector<double>{1.5, 1}),
               "s.json:/options/size: size '1.5x1' is not WIDTHxHEIGHT in pixels, each 1 to 16384, as in 1280x720");
-    EXPECT_EQ(refusedWish("layout", "pakced"),
+    EXPECT_EQ(refusedOption("layout", "pakced"),
               "s.json:/options/layout: unknown layout 'pakced': did you mean 'packed'?");
-    EXPECT_EQ(refusedWish("layout", 1.0), "s.json:/options/layout: is a number; text is needed");
-    EXPECT_EQ(refusedWish("exposureEV", "bright"), "s.json:/options/exposureEV: is text; a number is needed");
-    EXPECT_EQ(refusedWish("prune", "off"), "s.json:/options/prune: is text; true or false is needed");
-    EXPECT_EQ(refusedWish("exposureEV", 200.0),
+    EXPECT_EQ(refusedOption("layout", 1.0), "s.json:/options/layout: is a number; text is needed");
+    EXPECT_EQ(refusedOption("exposureEV", "bright"), "s.json:/options/exposureEV: is text; a number is needed");
+    EXPECT_EQ(refusedOption("prune", "off"), "s.json:/options/prune: is text; true or false is needed");
+    EXPECT_EQ(refusedOption("exposureEV", 200.0),
               "s.json:/options/exposureEV: exposure 200 is above 120; give -120 to 120");
 }
 

@@ -174,12 +174,12 @@ TEST(AreaLightReach, isItsRangeOrWhereItCanCauseNoMoreThanTheTolerance) {
     EXPECT_DOUBLE_EQ(reachMetres(panel, 0.25), 14.5);
     panel.rangeMetres = 7.0f;
     EXPECT_EQ(reachMetres(panel, 0.25), 7.0);
-    EXPECT_FALSE(takesTolerance(panel));
+    EXPECT_FALSE(mayBeTruncated(panel));
     panel.heightMetres = 0.0f;
     EXPECT_EQ(reachMetres(panel, 0.0), 0.0);
     for (const LightType type : kAreaTypes) {
         scenes::Light light = surfaceLight(type);
-        EXPECT_TRUE(takesTolerance(light));
+        EXPECT_TRUE(mayBeTruncated(light));
         double last = scenes::kInfinity;
         for (double tolerance = 1e-9; tolerance < 1e6; tolerance *= 10.0) {
             const double reach = reachMetres(light, tolerance), beyond = reach - scenes::surfaceReachMetres(light);

@@ -35,7 +35,7 @@ glm::dvec3 meanSquare(const std::vector<DiffusionLevel>& levels) {
 
 TEST(DiffusionLevels, addTheProfilesGaussiansUp) {
     scenes::Subsurface skin;
-    const std::vector<DiffusionLevel> levels = frame::lightSpread(skin, 8, 1e-4).levels;
+    const std::vector<DiffusionLevel> levels = frame::diffusionKernel(skin, 8, 1e-4).levels;
     ASSERT_EQ(levels.size(), 6u);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(weightOf(levels)[c], 1.0, 1e-12);
     // Published variances in mm^2 and weights of red: d'Eon and Luebke 2007, GPU Gems 3, chapter 14.
@@ -48,16 +48,16 @@ TEST(DiffusionLevels, addTheProfilesGaussiansUp) {
         EXPECT_NEAR(levels[i].weight.r, red[i], 2e-3);
     }
     skin.scaleMetres = 0.1f; // a model at ten times its real size
-    EXPECT_NEAR(frame::lightSpread(skin, 8, 1e-4).levels[0].varianceSquareMetres, 6.4e-7 - 1e-8 / 6.0, 1e-12);
+    EXPECT_NEAR(frame::diffusionKernel(skin, 8, 1e-4).levels[0].varianceSquareMetres, 6.4e-7 - 1e-8 / 6.0, 1e-12);
 }
 
-TEST(DiffusionLevels, fewerKeepTheLightAndHowFarItSpreadsOnTheMean) {
+TEST(DiffusionLevels, fewerKeepTheLightAndHowFarItDiffusesOnTheMean) {
     const scenes::Subsurface skin;
-    const glm::dvec3 whole = meanSquare(frame::lightSpread(skin, 8, kTexelMetres).levels);
+    const glm::dvec3 whole = meanSquare(frame::diffusionKernel(skin, 8, kTexelMetres).levels);
     // All channels share the widths, so red, which diffuses farthest, passes some variance to the others. Figures from
     // the published numbers alone.
     for (const auto& [most, redShare] : {std::pair(5, 0.9972), {4, 0.9844}, {3, 0.9645}, {2, 0.4904}, {1, 0.3557}}) {
-        const std::vector<DiffusionLevel> levels = frame::lightSpread(skin, most, kTexelMetres).levels;
+        const std::vector<DiffusionLevel> levels = frame::diffusionKernel(skin, most, kTexelMetres).levels;
         EXPECT_EQ(levels.size(), std::size_t(most));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(weightOf(levels)[c], 1.0, 1e-12);
         const glm::dvec3 own = meanSquare(levels);
@@ -71,17 +71,17 @@ TEST(DiffusionLevels, gaussiansNarrowerThanTexelsKeepTheirVarianceInTwoShares) {
     scenes::Subsurface narrow;
     narrow.profile = {{0.05f, glm::vec3(0.25f)}, {0.1f, glm::vec3(0.75f)}}; // square millimetres
     for (const bool isHalved : {false, true}) {
-        const frame::LightSpread spread = frame::lightSpread(narrow, 8, 1e-3, isHalved);
+        const frame::DiffusionKernel kernel = frame::diffusionKernel(narrow, 8, 1e-3, isHalved);
         const double shown = frame::texelVariance(1e-3, isHalved);
-        EXPECT_TRUE(spread.levels.empty());
+        EXPECT_TRUE(kernel.levels.empty());
         for (int c = 0; c < 3; ++c) {
-            EXPECT_NEAR(spread.inTexels[c] * shown, 0.25 * 0.05e-6 + 0.75 * 0.1e-6, 1e-14);
-            EXPECT_NEAR(spread.inTexels[c] + spread.inPixels[c], 1.0, 1e-12);
+            EXPECT_NEAR(kernel.inTexels[c] * shown, 0.25 * 0.05e-6 + 0.75 * 0.1e-6, 1e-14);
+            EXPECT_NEAR(kernel.inTexels[c] + kernel.inPixels[c], 1.0, 1e-12);
         }
     }
     const scenes::Subsurface skin;
-    EXPECT_NEAR(frame::lightSpread(skin, 8, 1.0).inPixels.r, 1.0, 1e-4) << "texels far wider than all";
-    const frame::LightSpread exact = frame::lightSpread(skin, 8, 0.0);
+    EXPECT_NEAR(frame::diffusionKernel(skin, 8, 1.0).inPixels.r, 1.0, 1e-4) << "texels far wider than all";
+    const frame::DiffusionKernel exact = frame::diffusionKernel(skin, 8, 0.0);
     EXPECT_EQ(exact.levels.size(), 6u) << "an object without area";
     EXPECT_EQ(exact.inPixels, glm::dvec3(0.0));
 }
@@ -90,7 +90,7 @@ TEST(DiffusionLevels, wideJumpsHaveStepsBetween) {
     scenes::Subsurface wide;
     wide.profile = {{1e6f, glm::vec3(1.0f)}}; // a metre
     const double texelMetres = 1e-3;
-    const std::vector<DiffusionLevel> levels = frame::lightSpread(wide, 8, texelMetres).levels;
+    const std::vector<DiffusionLevel> levels = frame::diffusionKernel(wide, 8, texelMetres).levels;
     EXPECT_GT(levels.size(), 3u);
     double variance = frame::texelVariance(texelMetres, false);
     for (const DiffusionLevel& level : levels) {
@@ -105,24 +105,24 @@ TEST(DiffusionLevels, wideJumpsHaveStepsBetween) {
     EXPECT_EQ(weightOf(levels), glm::dvec3(1.0));
     // The result of a narrow Gaussian is not smooth at the width of a wide one.
     wide.profile = {{0.5f, glm::vec3(0.05f)}, {320.0f, glm::vec3(0.95f)}}; // 0.71 and 17.9 mm
-    const std::vector<DiffusionLevel> two = frame::lightSpread(wide, 8, texelMetres).levels;
+    const std::vector<DiffusionLevel> two = frame::diffusionKernel(wide, 8, texelMetres).levels;
     EXPECT_EQ(two.size(), 2u) << "every texel is a tap of both";
 }
 
 /// A square of skin with sides of a metre, whose texture coordinates 0 to 1 cover the texels within the border.
-TEST(SpreadingSpec, measuresTexelsWhereTheAtlasLaysThem) {
+TEST(DiffusionSpec, measuresTexelsWhereTheAtlasLaysThem) {
     const scenes::Scene scene = scenes::loadScene("diffusion_truth");
-    const std::vector<frame::SpreadingObject> objects = frame::spreadingObjects(scene, {}, frame::surfaceBounds(scene));
+    const std::vector<frame::DiffusionObject> objects = frame::diffusionObjects(scene, {}, frame::surfaceBounds(scene));
     ASSERT_FALSE(objects.empty());
     const scenes::Subsurface& skin = scene.materials[std::size_t(objects[0].material)].subsurface;
     for (const int side : {256, 512, 1024, 2048}) {
         for (const bool isHalved : {false, true}) {
             frame::FrameSettings settings;
             settings.diffusion = {side, 8, isHalved};
-            const frame::FrameSpec spec = frame::makeSpreadingSpec(scene, objects[0], {}, settings);
+            const frame::FrameSpec spec = frame::makeDiffusionSpec(scene, objects[0], {}, settings);
             frame::UvAtlas atlas;
-            atlas.sideTexels = spec.spreadTexels();
-            atlas.borderTexels = frame::borderTexels(spec.gutterTexels, spec.spreadTexels());
+            atlas.sideTexels = spec.diffusionTexels();
+            atlas.borderTexels = frame::borderTexels(spec.gutterTexels, spec.diffusionTexels());
             EXPECT_GT(atlas.borderTexels, 0);
             const double texelMetres = 1.0 / (atlas.placeOf({1.0f, 0.0f}).x - atlas.placeOf({0.0f, 0.0f}).x);
             const double shown = frame::texelVariance(texelMetres, isHalved);
@@ -133,23 +133,23 @@ TEST(SpreadingSpec, measuresTexelsWhereTheAtlasLaysThem) {
                 variance = double(gaussian.varianceSquareMillimetres) * millimetre * millimetre;
                 if (variance > shown) break;
             }
-            const DiffusionLevel& first = spec.spread->levels.at(0);
+            const DiffusionLevel& first = spec.diffusionKernel->levels.at(0);
             EXPECT_NEAR(first.varianceSquareMetres, variance - shown, 1e-6 * variance) << side;
-            EXPECT_NEAR(first.spreadSquareMetres, variance, 1e-6 * variance) << side;
-            EXPECT_NEAR(spec.spread->texelMetres, texelMetres, 1e-6 * texelMetres) << side;
+            EXPECT_NEAR(first.totalSquareMetres, variance, 1e-6 * variance) << side;
+            EXPECT_NEAR(spec.diffusionKernel->texelMetres, texelMetres, 1e-6 * texelMetres) << side;
         }
     }
 }
 
 /// The first level diffuses all but the variance of a texel; each further level continues from the previous one.
 TEST(DiffusionLevels, reachFromOneWidthToTheNext) {
-    const frame::LightSpread spread = frame::lightSpread(scenes::Subsurface{}, 8, kTexelMetres);
+    const frame::DiffusionKernel kernel = frame::diffusionKernel(scenes::Subsurface{}, 8, kTexelMetres);
     double before = 0.0;
-    for (std::size_t i = 0; i < spread.levels.size(); ++i) {
-        const frame::LevelReach reach = frame::levelReach(spread, i);
+    for (std::size_t i = 0; i < kernel.levels.size(); ++i) {
+        const frame::LevelReach reach = frame::levelReach(kernel, i);
         EXPECT_EQ(reach.fromSquareMetres, before);
         EXPECT_NEAR(reach.toSquareMetres - std::max(before, frame::texelVariance(kTexelMetres, false)),
-                    spread.levels[i].varianceSquareMetres, 1e-20);
+                    kernel.levels[i].varianceSquareMetres, 1e-20);
         before = reach.toSquareMetres;
     }
     EXPECT_NEAR(before, 7.41e-6, 1e-12);

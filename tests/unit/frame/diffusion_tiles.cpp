@@ -200,7 +200,7 @@ TEST(DiffusionTiles, workGrowsByWhatEachPassReads) {
     EXPECT_TRUE(lit.has(8 * kTiles + kTiles - 1)) << "the seam's other side";
 }
 
-TEST(DiffusionMemory, knowsTilesForTheKeyTheyWereComputedUnder) {
+TEST(DiffusionMemory, hasTilesForTheKeyTheyWereComputedUnder) {
     TileSet a(2), b(2), all(2, true);
     a.add(0);
     b.add(1);
@@ -249,9 +249,9 @@ TEST(DiffusionMemory, aLimitedFrameTakesTilesUntilAllAreThere) {
         if (!work.store.isEmpty()) {
             TileSet unlit = memory.unlit(0, 7, work.store);
             unlit.remove(work.light);
-            EXPECT_TRUE(unlit.isEmpty()) << "light spreads that is not there";
+            EXPECT_TRUE(unlit.isEmpty()) << "absent light is diffused";
         }
-        EXPECT_EQ(work.blank.isEmpty(), frames > 0) << "the first frame tells what is not known";
+        EXPECT_EQ(work.blank.isEmpty(), frames > 0) << "the first frame reports the unknown texels";
         memory.hold(0, 7, work.light, {});
         memory.hold(0, 7, {}, work.store);
         memory.holdBlank(0, 7, work.blank);
@@ -282,31 +282,31 @@ TEST(DiffusionSchedule, hasEveryPassInAPlan) {
     for (const std::size_t cell : {std::size_t(0), std::size_t(1)}) {
         EXPECT_FALSE(plan.leaves(cell));
         const DiffusionTask task = plan.next(cell, false);
-        EXPECT_TRUE(task.lights && task.spreads);
+        EXPECT_TRUE(task.lights && task.diffuses);
         EXPECT_EQ(task.work.levels.size(), cell == 0 ? 2u : 0u);
         EXPECT_FALSE(task.lit || task.stored || task.blanked);
     }
 }
 
-TEST(DiffusionSchedule, lightsAndSpreadsOnceAndLeavesWhatIsKnown) {
+TEST(DiffusionSchedule, lightsAndDiffusesOnceAndLeavesWhatIsKnown) {
     const std::vector<DiffusionTile> tiles = tilesApart(2);
     const TileSet all(2, true);
     DiffusionMemory memory;
-    int told = 0;
+    int reported = 0;
     const auto frame = [&](std::uint64_t key, bool holdsAtlas) {
-        return DiffusionSchedule(&memory, {objectOf(tiles, 2, key)}, holdsAtlas, [&] { ++told; });
+        return DiffusionSchedule(&memory, {objectOf(tiles, 2, key)}, holdsAtlas, [&] { ++reported; });
     };
     DiffusionSchedule first = frame(7, false);
     ASSERT_FALSE(first.leaves(0));
     DiffusionTask task = first.next(0, false);
-    EXPECT_TRUE(task.lights && task.spreads);
+    EXPECT_TRUE(task.lights && task.diffuses);
     EXPECT_EQ(task.work.light, all);
     EXPECT_EQ(task.work.store, all);
     EXPECT_TRUE(task.work.blank.isEmpty());
     EXPECT_EQ(memory.missing(0, 7, all), all) << "nothing is known before the passes have run";
     task.lit();
     task.stored();
-    EXPECT_EQ(told, 1);
+    EXPECT_EQ(reported, 1);
     EXPECT_TRUE(frame(7, true).leaves(0));
     EXPECT_FALSE(frame(8, true).leaves(0)) << "what enters has changed";
 
@@ -314,7 +314,7 @@ TEST(DiffusionSchedule, lightsAndSpreadsOnceAndLeavesWhatIsKnown) {
     EXPECT_FALSE(freed.leaves(0)) << "the atlas was freed";
     task = freed.next(0, true);
     EXPECT_FALSE(task.lights) << "what has entered is kept";
-    EXPECT_TRUE(task.spreads);
+    EXPECT_TRUE(task.diffuses);
     EXPECT_EQ(task.work.store, all);
     task = frame(7, false).next(0, false);
     EXPECT_TRUE(task.lights) << "that was freed too";
@@ -329,7 +329,7 @@ TEST(DiffusionSchedule, writesAnAtlasBeforeItIsReadThoughNothingIsSeen) {
     EXPECT_TRUE(schedule.leaves(0)) << "the second may do it";
     ASSERT_FALSE(schedule.leaves(1));
     const DiffusionTask task = schedule.next(1, false);
-    EXPECT_TRUE(task.lights && task.spreads) << "which reads light that must have been written";
+    EXPECT_TRUE(task.lights && task.diffuses) << "which reads light that must have been written";
     EXPECT_TRUE(task.work.light.isEmpty() && task.work.store.isEmpty());
     EXPECT_TRUE(DiffusionSchedule(&memory, {unseen, unseen}, true).leaves(1));
 }
@@ -342,8 +342,8 @@ TEST(DiffusionSchedule, sharesTheFramesLimitAmongObjects) {
     const DiffusionTask one = schedule.next(0, false), other = schedule.next(1, false);
     EXPECT_EQ(one.work.light.count(), 3u);
     EXPECT_TRUE(one.lights);
-    EXPECT_FALSE(one.spreads) << "not all of its light is there";
-    EXPECT_FALSE(other.lights || other.spreads) << "the limit is spent";
+    EXPECT_FALSE(one.diffuses) << "not all of its light is there";
+    EXPECT_FALSE(other.lights || other.diffuses) << "the limit is spent";
     EXPECT_EQ(other.work.blank.count(), 9u) << "the atlas must say that nothing is known";
 }
 

@@ -45,7 +45,7 @@ scenes::Scene mixedScene() {
     return scene;
 }
 
-TEST(DrawList, depthIsAlwaysDrawnInOrderAndSplitOnlyWhereHolesOrThePipelineStateAsk) {
+TEST(DrawList, depthIsAlwaysDrawnInOrderAndSplitOnlyWhereHolesOrThePipelineStateNeedIt) {
     scenes::Scene scene = mixedScene(); // material 1 is masked
     scene.materials[3].doubleSided = true;
     const std::vector<Batch> batches{{0, 2, 0, false}, {2, 3, 2, false}, {5, 1, 2, true},  {6, 2, 1, true},

@@ -171,7 +171,7 @@ TEST(EnvironmentCacheSlow, aMapOf2048ColumnsTakesFiveSecondsOfTwoCoresAndReadAga
     EXPECT_LE(secondsAgain, kSlower * kMostSecondsAgain);
 }
 
-TEST(EnvironmentCache, aFolderThatCannotBeWrittenIsToldOnce) {
+TEST(EnvironmentCache, aFolderThatCannotBeWrittenIsReportedOnce) {
     takeCacheFault(); // clears faults of other tests
     test::TempFolder folder;
     const std::filesystem::path file = folder.path() / "file";

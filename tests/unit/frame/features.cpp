@@ -262,7 +262,7 @@ TEST(Features, ofLightThatEntersAreThoseOfASurfaceWithoutLayersThatPassesLight) 
     }
     EXPECT_EQ(entered.soleModel, MaterialModel::Lambert);
     EXPECT_TRUE(entered[Feature::SubsurfacePassage]);
-    EXPECT_FALSE(drawn[Feature::SubsurfacePassage]) << "light that spreads has passed before";
+    EXPECT_FALSE(drawn[Feature::SubsurfacePassage]) << "diffused light has passed before";
     EXPECT_FALSE(entered[Feature::SubsurfaceDiffusion]);
 }
 

@@ -107,21 +107,21 @@ void expectRefinementsOfBuiltinScenes() {
         if (!test::isWholeSweep() && turn++ % 2 != 0) continue;
         SCOPED_TRACE(builtin.name);
         const Scene scene = scenes::loadScene(std::string(builtin.name), options);
-        const std::size_t ofSpreadLight = scenes::anySpreads(scene, {}) ? 1 : 0;
+        const std::size_t ofDiffusedLight = scenes::anyDiffuses(scene, {}) ? 1 : 0;
         for (const Refinement& refinement : refinements(layoutTable()[1].layout, scene))
             EXPECT_EQ(refinement.channel, Channel::Emission);
-        EXPECT_EQ(refinements(layoutTable()[1].layout, scene).size(), ofSpreadLight);
+        EXPECT_EQ(refinements(layoutTable()[1].layout, scene).size(), ofDiffusedLight);
         // Anisotropic highlights: both channels of alphas; in "models" also the normal.
         const std::size_t ofHighlights = builtin.name == "models" ? 3 : builtin.name == "studio" ? 2 : 0;
-        EXPECT_EQ(refinements(layoutTable()[2].layout, scene).size(), ofSpreadLight + ofHighlights);
+        EXPECT_EQ(refinements(layoutTable()[2].layout, scene).size(), ofDiffusedLight + ofHighlights);
         // Nothing is diffused if another method is requested.
         EXPECT_TRUE(refinements(layoutTable()[1].layout, scene, scenes::SubsurfaceMethod::Wrap).empty());
     }
 }
-TEST(RefineLayout, builtinScenesNeedMoreThanTheirLayoutForTheHalfVectorOfModelsAndSpreadLightAlone) {
+TEST(RefineLayout, builtinScenesNeedMoreThanTheirLayoutForTheHalfVectorOfModelsAndDiffusedLightAlone) {
     expectRefinementsOfBuiltinScenes();
 }
-TEST(RefineLayoutSlow, builtinScenesNeedMoreThanTheirLayoutForTheHalfVectorOfModelsAndSpreadLightAlone) {
+TEST(RefineLayoutSlow, builtinScenesNeedMoreThanTheirLayoutForTheHalfVectorOfModelsAndDiffusedLightAlone) {
     expectRefinementsOfBuiltinScenes();
 }
 

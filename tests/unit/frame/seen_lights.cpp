@@ -256,7 +256,7 @@ TEST(SeenLights, aPolygonBringsItsCornersInMetresInTheirOrder) {
     EXPECT_EQ(texels.corners[2], glm::vec4(-2.0f, 0.125f, 0.0f, 0.0f));
 }
 
-TEST(SeenLights, aPlanIsToldWhyThereAreNone) {
+TEST(SeenLights, aPlanReportsWhyThereAreNone) {
     scenes::Scene scene;
     FrameSettings settings;
     EXPECT_EQ(whyNoSeenLights(scene, settings), "no light has one");

@@ -46,7 +46,7 @@ TEST_P(TangentMethods, mirroredCoordinatesAlwaysKeepTheirHandedness) {
     for (const glm::vec4& tangent : tangents(upsideDown)) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, -1));
 }
 
-TEST_P(TangentMethods, theAskedForSetIsAlwaysTheOneUsed) {
+TEST_P(TangentMethods, theRequestedSetIsAlwaysTheOneUsed) {
     scenes::Mesh mesh = quad();
     mesh.texCoords[1] = {{0, 0}, {0, 1}, {1, 1}, {1, 0}};
     EXPECT_EQ(tangents(mesh, 1).front(), glm::vec4(0, 1, 0, 1));

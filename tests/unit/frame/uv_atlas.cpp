@@ -32,7 +32,7 @@ Mesh square() {
     return mesh;
 }
 
-TEST(UvAtlas, aSquareCoversItsTexelsOnceAndKnowsItsSteps) {
+TEST(UvAtlas, aSquareCoversItsTexelsOnceAndHasItsSteps) {
     const UvAtlas atlas = makeUvAtlas(square(), glm::dmat4(1.0), 64, 0, 4);
     std::size_t covered = 0;
     for (const UvTexel& texel : atlas.texels) covered += texel.isCovered;
@@ -133,7 +133,7 @@ TEST(UvAtlas, stepsOfASkewedTextureAreAtRightAnglesOnTheSurface) {
     }
 }
 
-TEST(UvAtlas, aMeshThatLightCannotSpreadOverIsRefusedWithAReason) {
+TEST(UvAtlas, aMeshWithoutDiffusionIsRefusedWithAReason) {
     EXPECT_EQ(unwrapProblem(square()), "");
     EXPECT_EQ(unwrapProblem(tube(8)), "");
     Mesh bare = square();

@@ -32,7 +32,7 @@ TEST(Culling, aPassWithUnusedOutputsDoesNotRunAndThePlanSaysWhy) {
     EXPECT_THAT(orderOf(graph, compiled), ElementsAre("gbuffer"));
     ASSERT_EQ(compiled.culled.size(), 1u);
     EXPECT_EQ(graph.passes()[compiled.culled[0].pass].name, "occlusion");
-    EXPECT_EQ(compiled.culled[0].why, "nobody needs 'ao', 'bent normal' or 'ao depth'");
+    EXPECT_EQ(compiled.culled[0].why, "nothing needs 'ao', 'bent normal' or 'ao depth'");
     EXPECT_EQ(compiled.culled[0].before, 1u);
 }
 
@@ -47,7 +47,7 @@ TEST(Culling, chainThatLeadsNowhereIsLeftOutWhole) {
     EXPECT_THAT(orderOf(graph, compiled), ElementsAre("shade"));
     ASSERT_EQ(compiled.culled.size(), 3u);
     EXPECT_EQ(compiled.culled[0].why, "'ao' is used only by 'blur' and 'upsample', left out as well");
-    EXPECT_EQ(compiled.culled[1].why, "nobody needs 'smooth'");
+    EXPECT_EQ(compiled.culled[1].why, "nothing needs 'smooth'");
     EXPECT_EQ(compiled.culled[0].before, 0u);
     EXPECT_EQ(compiled.culled[2].before, 1u);
 }
@@ -62,7 +62,7 @@ TEST(Culling, mixedReasonsAreAllGiven) {
     blend(graph, "more", a);
     const CompiledGraph compiled = compile(graph);
     ASSERT_EQ(compiled.culled.size(), 2u);
-    EXPECT_EQ(compiled.culled[0].why, "nobody needs 'b'; 'a' is used only by 'more', left out as well");
+    EXPECT_EQ(compiled.culled[0].why, "nothing needs 'b'; 'a' is used only by 'more', left out as well");
 }
 
 TEST(Culling, passThatWritesNothingNeverRunsUnlessKept) {

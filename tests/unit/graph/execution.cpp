@@ -130,7 +130,7 @@ TEST(Execution, aBufferThatGrowsIsNotResolvedBeforeItHasRoomNorGivenRoomTwice) {
         return errorOfRun<std::logic_error>(graph, backend);
     };
     EXPECT_EQ(errorOf(0, [](const Grown& data, const PassContext& context) { context.buffer(data.list); }),
-              "pass 'count': asked for 'list' before any pass said how many bytes it holds");
+              "pass 'count': requested 'list' before any pass set its size in bytes");
     const auto twice = [](const Grown& data, const PassContext& context) {
         context.allocate(data.list, 1);
         context.allocate(data.list, 2);
@@ -147,7 +147,7 @@ TEST(Execution, handleThatThePassDidNotDeclareIsNotResolved) {
     failingPass(graph, [&](const PassContext& context) { context.texture(secret); });
     EXPECT_EQ(
         errorOfRun<std::logic_error>(graph, backend),
-        "pass 'broken': asked for version 1 of 'secret', which it did not declare; read or write it in its setup");
+        "pass 'broken': requested version 1 of 'secret', which it did not declare; read or write it in its setup");
 }
 
 TEST(Execution, versionThatThePassDidNotDeclareIsNotResolved) {
@@ -160,14 +160,14 @@ TEST(Execution, versionThatThePassDidNotDeclareIsNotResolved) {
         [&](PassBuilder& builder) { builder.read(v1); });
     v2 = blend(graph, "fog", v1);
     EXPECT_EQ(errorOfRun<std::logic_error>(graph, backend),
-              "pass 'peek': asked for version 2 of 'image', which it did not declare; read or write it in its setup");
+              "pass 'peek': requested version 2 of 'image', which it did not declare; read or write it in its setup");
 }
 
 TEST(Execution, invalidHandleIsNotResolved) {
     Recorder backend;
     Graph graph;
     failingPass(graph, [](const PassContext& context) { context.buffer(BufferHandle{}); });
-    EXPECT_EQ(errorOfRun<std::logic_error>(graph, backend), "pass 'broken': asked for an invalid buffer handle");
+    EXPECT_EQ(errorOfRun<std::logic_error>(graph, backend), "pass 'broken': requested an invalid buffer handle");
 }
 
 TEST(Execution, failureCarriesThePassNameAndKeepsItsKind) {
@@ -267,14 +267,14 @@ TEST(Execution, onlyOutputsAreHandedOutAfterTheRun) {
     const auto errorOf = [&](TextureHandle handle) {
         return tessera::test::errorText<std::logic_error>([&] { execution.texture(handle); });
     };
-    EXPECT_EQ(errorOf(image), "an execution was asked for 'image' before run()");
+    EXPECT_EQ(errorOf(image), "an execution got a request for 'image' before run()");
     execution.run();
     EXPECT_EQ(errorOf(image), "");
     for (const auto& [handle, name] : {std::pair(opaque, "image"), {gbuffer, "normal"}})
-        EXPECT_EQ(errorOf(handle), std::string("an execution was asked for version 1 of '") + name +
+        EXPECT_EQ(errorOf(handle), std::string("an execution got a request for version 1 of '") + name +
                                        "', which is no output of the frame, so that other data may have replaced it; "
                                        "declare it with Graph::output()");
-    EXPECT_EQ(errorOf(TextureHandle{}), "an execution was asked for an invalid texture handle");
+    EXPECT_EQ(errorOf(TextureHandle{}), "an execution got a request for an invalid texture handle");
 }
 
 } // namespace

@@ -216,7 +216,7 @@ private:
     std::vector<BufferHandle> buffers_;
 };
 
-TEST(Hazards, everyBarrierIsExactlyWhatAnOracleOfTheMemoryModelAsksFor) {
+TEST(Hazards, everyBarrierIsExactlyWhatAnOracleOfTheMemoryModelRequires) {
     std::map<Access, int> waited; ///< how often an access had something to wait for
     int aliased = 0, culled = 0, after = 0;
     for (std::uint64_t seed = 1; seed <= 300; ++seed) {

@@ -81,7 +81,7 @@ Runs, in this order
 
 Left out
   what             why                            saves
-  pass occlusion   nobody needs 'ao'           16.0 KiB
+  pass occlusion   nothing needs 'ao'          16.0 KiB
   channel tangent  no material is anisotropic   8.0 KiB
 
 Choices
@@ -143,7 +143,7 @@ TEST(Plan, jsonHasTheFieldsOfTheDocumentation) {
                                        {"ms", nullptr},
                                        {"barrier", "storage"}}));
     EXPECT_EQ(plan["left_out"][0],
-              json({{"what", "pass occlusion"}, {"why", "nobody needs 'ao'"}, {"bytes", 16384}, {"ms", nullptr}}));
+              json({{"what", "pass occlusion"}, {"why", "nothing needs 'ao'"}, {"bytes", 16384}, {"ms", nullptr}}));
     EXPECT_EQ(plan["left_out"][1]["what"], "channel tangent");
     EXPECT_EQ(plan["choices"][0], json({{"what", "tile"}, {"chosen", "16"}, {"why", "the default"}}));
     EXPECT_EQ(plan["counters"], json({{"lights", 1024}}));
@@ -234,7 +234,7 @@ TEST(Plan, drawingShowsEachVersionOnceAndNeverRunsBackwards) {
 
 TEST(Plan, omittedPassesAreDashed) {
     const std::string dot = planDot(examplePlan());
-    EXPECT_THAT(dot, HasSubstr(R"(leftOut0 [label=<<B>pass occlusion</B><BR/><FONT POINT-SIZE="9">nobody needs 'ao')"
+    EXPECT_THAT(dot, HasSubstr(R"(leftOut0 [label=<<B>pass occlusion</B><BR/><FONT POINT-SIZE="9">nothing needs 'ao')"
                                R"(</FONT>>, shape=box, style=dashed)"));
     EXPECT_THAT(dot, HasSubstr("resource2 -> leftOut0 [style=dashed"));
     EXPECT_THAT(dot, HasSubstr("leftOut0 -> resource4 [style=dashed"));

@@ -11,10 +11,10 @@ using testing::ElementsAre;
 class Programs : public ProgramSource {
 public:
     const gpu::Program& get(const ProgramDesc& desc) override {
-        asked.push_back(desc.name);
+        requested.push_back(desc.name);
         return standIn<gpu::Program>(place);
     }
-    std::vector<std::string> asked;
+    std::vector<std::string> requested;
     Place place;
 };
 
@@ -47,7 +47,7 @@ TEST(Execution, aPassIsGivenItsOwnProgramsInTheOrderOfTheirDeclaration) {
     EXPECT_EQ(compiled.programs[0].name, "opaque");
     EXPECT_EQ(compiled.programs[1].name, "transparent");
     Execution(graph, compiled, backend, &programs).run();
-    EXPECT_THAT(programs.asked, ElementsAre("transparent", "opaque"));
+    EXPECT_THAT(programs.requested, ElementsAre("transparent", "opaque"));
 }
 
 TEST(Execution, aProgramThatAPassDidNotDeclareIsRefused) {
@@ -55,7 +55,7 @@ TEST(Execution, aProgramThatAPassDidNotDeclareIsRefused) {
     Graph undeclared;
     failingPass(undeclared, [](const PassContext& context) { context.program(); });
     EXPECT_EQ(errorOfRun<std::logic_error>(undeclared, backend),
-              "pass 'broken': asked for its program 0, and declared 0; name it in its setup");
+              "pass 'broken': requested its program 0, and declared 0; name it in its setup");
     Graph without;
     keptPass(
         without, "lost", [](const PassContext& context) { context.program(); },

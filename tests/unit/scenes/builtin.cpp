@@ -103,7 +103,7 @@ void BuiltinScenes::expectChargedBefore() {
     options.memoryLimitBytes = builtin.bytes - 1;
     EXPECT_EQ(
         test::inputErrorOf([&] { loadScene(std::string(builtin.name), options); }),
-        fmt::format("{}: asks for {} of memory, and 0 B are in use; a load may take {}; use a smaller file, or raise "
+        fmt::format("{}: needs {} of memory, and 0 B are in use; a load may take {}; use a smaller file, or raise "
                     "the memory limit",
                     builtin.name, sizeText(builtin.bytes), sizeText(builtin.bytes - 1)));
 }
@@ -114,10 +114,10 @@ TEST_P(BuiltinScenesSlow, areAlwaysChargedBeforeTheyAreMadeAndForNoLessThanTheyT
     expectChargedBefore();
 }
 
-TEST(BuiltinMemory, lightsThatABuiltinSceneIsAskedForAreChargedBeforeTheyAreMade) {
+TEST(BuiltinMemory, lightsThatABuiltinSceneIsRequestedAreChargedBeforeTheyAreMade) {
     LoadOptions options = loading(&LoadOptions::lights, kMostLights);
     options.memoryLimitBytes = builtinScene("lattice")->bytes + 1000;
-    EXPECT_THAT(test::inputErrorOf([&] { loadScene("lattice", options); }), testing::StartsWith("lattice: asks for "));
+    EXPECT_THAT(test::inputErrorOf([&] { loadScene("lattice", options); }), testing::StartsWith("lattice: needs "));
 }
 
 std::string nameOf(const testing::TestParamInfo<BuiltinScene>& scene) {

@@ -103,7 +103,7 @@ TEST(Hall, brightnessNeverDependsOnTheNumberOfLights) {
     EXPECT_NEAR(power(65536), usual, 1e-5 * usual);
 }
 
-TEST(Hall, askedForNumberOfLightsIsExactlyMade) {
+TEST(Hall, requestedNumberOfLightsIsExactlyMade) {
     for (const int count : {0, 1, 255, 257, 4097, 65536}) {
         Scene scene;
         builtin::hall::addPointLights(scene, count);
@@ -132,7 +132,7 @@ TEST(Lamps, areAThousandRectanglesThatEndWithinTheHall) {
     EXPECT_EQ(std::ranges::count(scene.lights, true, &Light::isTwoSided), 96) << "the sheets over the nave alone";
 }
 
-TEST(Lamps, askedForNumberOfLightsIsExactlyMadeAndTheFirstAreSpreadOut) {
+TEST(Lamps, requestedNumberOfLightsIsExactlyMadeAndTheFirstAreSpreadOut) {
     for (const int count : {0, 1, 999, 1001, 4097}) {
         Scene scene;
         builtin::lamps::addLamps(scene, builtin::lamps::lampPlaces(), count);

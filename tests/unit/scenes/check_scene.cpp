@@ -259,7 +259,7 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"alphaY", with(&Material::alphaY, 1.1e6f)},
         {"the index of refraction", with(&Material::ior, 1.1e6f)},
         {"background", [](Scene& s) { s.background.x = kNaN; }},
-        {"the option exposureEV is not finite", [](Scene& s) { s.options.wishes["exposureEV"] = double(kNaN); }},
+        {"the option exposureEV is not finite", [](Scene& s) { s.options.requested["exposureEV"] = double(kNaN); }},
         {"environment 0 'sky': its intensity must be finite and not negative",
          [](Scene& s) { s.environment = sky(1.0f, kInfinity, 0.0f); }},
         {"its intensity must be finite and not negative", [](Scene& s) { s.environment = sky(1.0f, -1.0f, 0.0f); }},
@@ -270,7 +270,7 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"its brightest texel times its intensity is 2e+30, and at most 1e+30 can be shown; lower its intensity",
          [](Scene& s) { s.environment = sky(2e20f, 1e10f, 0.0f); }},
         {"the option size is not finite",
-         [](Scene& s) { s.options.wishes["size"] = std::vector<double>{double(kNaN), 5.0}; }},
+         [](Scene& s) { s.options.requested["size"] = std::vector<double>{double(kNaN), 5.0}; }},
     };
     for (const auto& [text, spoil] : cases) EXPECT_THAT(verdict(spoil), HasSubstr(text));
 }

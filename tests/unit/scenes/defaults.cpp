@@ -88,16 +88,16 @@ TEST(DefaultLight, isTheStudioBeforeABlurredBackdrop) {
     const Scene scene = litByDefault(tinyScene());
     ASSERT_TRUE(scene.environment);
     EXPECT_EQ(scene.environment->source, "builtin:studio");
-    EXPECT_EQ(scene.options.wishes.at("backdrop"), Wish("blurred"));
+    EXPECT_EQ(scene.options.requested.at("backdrop"), OptionValue("blurred"));
     constexpr const char* kOthers = " (--environment, --backdrop or --no-default-light change that)";
     const std::string lit = "no light in it: lit by the environment 'studio'";
     EXPECT_EQ(suppliedText(scene), lit + ", blurred behind it" + kOthers);
     EXPECT_EQ(suppliedText(scene, Advice::Panels), lit + ", blurred behind it (the panel Environment changes that)");
     EXPECT_TRUE(scene.warnings.empty());
     Scene sharp = tinyScene();
-    sharp.options.wishes["backdrop"] = "sharp";
+    sharp.options.requested["backdrop"] = "sharp";
     const Scene unblurred = litByDefault(sharp);
-    EXPECT_EQ(unblurred.options.wishes.at("backdrop"), Wish("sharp"));
+    EXPECT_EQ(unblurred.options.requested.at("backdrop"), OptionValue("sharp"));
     EXPECT_EQ(suppliedText(unblurred), lit + kOthers);
 }
 
@@ -123,20 +123,20 @@ TEST(DefaultLight, standsAroundAnyCameraAsAroundTheDefaultOne) {
     EXPECT_EQ(turnedFor("2"), 0.0f);
 }
 
-TEST(DefaultToneMap, isNeutralUnlessAFileAsksForAnotherOrEverythingInUseIsUnlit) {
+TEST(DefaultToneMap, isNeutralUnlessAFileRequestsAnotherOrEverythingInUseIsUnlit) {
     Scene lit = tinyScene();
     addDefaultToneMap(lit);
-    EXPECT_EQ(lit.options.wishes.at("toneMap"), Wish("khronos_neutral"));
-    EXPECT_EQ(lit.supplied.wishes, std::set<std::string>{"toneMap"});
-    Scene wished = tinyScene();
-    wished.options.wishes["toneMap"] = "aces";
-    addDefaultToneMap(wished);
-    EXPECT_EQ(wished.options.wishes.at("toneMap"), Wish("aces"));
-    EXPECT_TRUE(wished.supplied.wishes.empty());
+    EXPECT_EQ(lit.options.requested.at("toneMap"), OptionValue("khronos_neutral"));
+    EXPECT_EQ(lit.supplied.requested, std::set<std::string>{"toneMap"});
+    Scene requesting = tinyScene();
+    requesting.options.requested["toneMap"] = "aces";
+    addDefaultToneMap(requesting);
+    EXPECT_EQ(requesting.options.requested.at("toneMap"), OptionValue("aces"));
+    EXPECT_TRUE(requesting.supplied.requested.empty());
     Scene unlit = tinyScene();
     unlit.materials[0].model = MaterialModel::SingleColor;
     addDefaultToneMap(unlit);
-    EXPECT_FALSE(unlit.options.wishes.contains("toneMap"));
+    EXPECT_FALSE(unlit.options.requested.contains("toneMap"));
 }
 
 TEST(DefaultLight, shinesUnlessThereIsLightOrEverythingInUseIsUnlit) {

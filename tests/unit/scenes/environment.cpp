@@ -183,7 +183,7 @@ TEST(Environment, aNameIsThatOfABuiltInOneAsSceneFilesWriteItTooAndOfAFileAlone)
     EXPECT_TRUE(problem(path + "/none.hdr").starts_with("no built-in environment or picture file is called '"));
 }
 
-TEST(Environment, aBlackMapIsToldOnceAndNoOtherIs) {
+TEST(Environment, aBlackMapIsReportedOnceAndNoOtherIs) {
     TempFolder folder;
     for (const float blue : {0.0f, 1e-30f}) { // of the last texel
         LoadLedger ledger;
@@ -196,11 +196,11 @@ TEST(Environment, aBlackMapIsToldOnceAndNoOtherIs) {
     }
 }
 
-TEST(Environment, whoAsksIsToldHowMuchOfABuiltInMapIsComputed) {
+TEST(Environment, aCallbackGetsTheComputedFractionOfABuiltInMap) {
     LoadLedger ledger;
     std::mutex mutex;
     std::vector<double> shares;
-    ledger.tellEnvironment([&](double share) {
+    ledger.reportEnvironment([&](double share) {
         const std::lock_guard lock(mutex);
         shares.push_back(share);
     });

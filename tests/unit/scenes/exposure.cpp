@@ -112,7 +112,7 @@ TEST(Exposure, surfacesCountByTheirTexturesEmissionAndSizeInThePicture) {
     other.parentFromNode[3].x = 5.0;
     EXPECT_NEAR(luminanceSeen(scene), 3.0, kExposureRounding) << "it is not in the picture";
     other.parentFromNode[3].x = 0.1;
-    EXPECT_NEAR(luminanceSeen(scene), 3.0, kExposureRounding) << "half of what is seen";
+    EXPECT_NEAR(luminanceSeen(scene), 3.0, kExposureRounding) << "half of the view";
     for (int i = 0; i < 9; ++i) scene.nodes.push_back(scene.nodes.back());
     EXPECT_EQ(luminanceSeen(scene), 0.0) << "a tenth";
     scene.nodes.resize(2);
@@ -164,24 +164,24 @@ TEST(DefaultExposure, isGivenToAModelWhoseOwnLightsAreFarFromADisplays) {
     const TempFolder folder;
     const auto write = [&](double lux) { return litModel(folder, lux); };
     const Scene bright = loadScene(write(1e5)); // sunlight: a white card has 1e5 / pi
-    EXPECT_EQ(bright.options.wishes.at("exposureEV"), Wish(-16.0));
+    EXPECT_EQ(bright.options.requested.at("exposureEV"), OptionValue(-16.0));
     EXPECT_THAT(suppliedText(bright),
                 HasSubstr("too bright for a display: exposed by -16 EV (--exposure chooses another)"));
-    EXPECT_FALSE(loadScene(write(1.0)).options.wishes.contains("exposureEV"));
+    EXPECT_FALSE(loadScene(write(1.0)).options.requested.contains("exposureEV"));
     const Scene dim = loadScene(write(0.01));
-    EXPECT_EQ(dim.options.wishes.at("exposureEV"), Wish(7.0));
+    EXPECT_EQ(dim.options.requested.at("exposureEV"), OptionValue(7.0));
     EXPECT_THAT(suppliedText(dim), HasSubstr("too dim for a display: exposed by +7 EV (--exposure chooses another)"));
     EXPECT_THAT(suppliedText(dim, Advice::Panels), HasSubstr("(the panel View chooses another)"));
     const std::string own = folder.file("own.json", R"({"tessera": 1, "include": [{"file": "lit.gltf"}]})");
-    EXPECT_FALSE(loadScene(own).options.wishes.contains("exposureEV")) << "who writes a scene says how it is shown";
+    EXPECT_FALSE(loadScene(own).options.requested.contains("exposureEV")) << "who writes a scene says how it is shown";
     LoadOptions options = loading(&LoadOptions::lights, 0);
-    EXPECT_FALSE(loadScene(write(0.01), options).options.wishes.contains("exposureEV"));
+    EXPECT_FALSE(loadScene(write(0.01), options).options.requested.contains("exposureEV"));
 }
 
 /// The intensity of the supplied environment, times the exposure.
 double fillOf(const Scene& scene) {
-    const auto wish = scene.options.wishes.find("exposureEV");
-    const double stops = wish == scene.options.wishes.end() ? 0.0 : std::get<double>(wish->second);
+    const auto requested = scene.options.requested.find("exposureEV");
+    const double stops = requested == scene.options.requested.end() ? 0.0 : std::get<double>(requested->second);
     return scene.environment ? double(scene.environment->intensity) * std::exp2(stops) : 0.0;
 }
 
@@ -198,7 +198,7 @@ TEST(FillLight, isAQuarterOfAModelsOwnLightOrWhatThatLacks) {
     EXPECT_THAT(suppliedText(mirror), HasSubstr(" % beside its own lights"));
 }
 
-TEST(FillLight, isLeftOutWhereItWasNotAskedFor) {
+TEST(FillLight, isLeftOutWhereItWasNotRequested) {
     const TempFolder folder;
     const std::string model = litModel(folder, 1.0);
     EXPECT_FALSE(loadScene(model, loading(&LoadOptions::defaultLight, false)).environment);

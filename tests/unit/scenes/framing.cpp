@@ -129,7 +129,7 @@ TEST(Framing, theCameraThatIsSuppliedFitsTheAspectOfThePicture) {
               glm::length(glm::dvec3(narrow.worldFromCamera[3])));
     EXPECT_EQ(wide.nearMetres, narrow.nearMetres) << "so that eye and target say all of it";
     EXPECT_EQ(camera(scene, {}), camera(scene, 16.0 / 9.0));
-    scene.options.wishes["size"] = std::vector<double>{400, 100};
+    scene.options.requested["size"] = std::vector<double>{400, 100};
     EXPECT_EQ(camera(scene, {}), wide);
 }
 

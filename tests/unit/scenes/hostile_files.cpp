@@ -98,7 +98,7 @@ TEST(Memory, picturesAreChargedFromTheirHeader) {
     const TempFolder folder;
     const std::filesystem::path file = folder.write("bomb.png", pictureBomb());
     EXPECT_THAT(errorUnder(readImage, file, 64 * kMiB),
-                AllOf(HasSubstr("bomb.png: the picture of 8192x8192 texels"), HasSubstr("asks for 256.0 MiB")));
+                AllOf(HasSubstr("bomb.png: the picture of 8192x8192 texels"), HasSubstr("needs 256.0 MiB")));
 }
 
 TEST(Memory, aModelOfAnyNumberOfPicturesThatCannotBeReadIsRefusedAfterSomeOfThem) {
@@ -143,7 +143,7 @@ TEST(Memory, theFilesOfABuiltinSceneAreChargedAndRecordedWithTheLoad) {
     folder.write("LeePerrySmith/albedo_2k.jpg", pictureBomb());
     options.memoryLimitBytes = builtinScene("head")->bytes + kMiB;
     EXPECT_THAT(inputErrorOf([&] { loadScene("head", options); }),
-                HasSubstr("albedo_2k.jpg: the picture of 8192x8192 texels: asks for 256.0 MiB of memory"));
+                HasSubstr("albedo_2k.jpg: the picture of 8192x8192 texels: needs 256.0 MiB of memory"));
 }
 
 TEST(Memory, aBuiltinSceneThatIsIncludedIsChargedBeforeItIsMade) {
@@ -151,7 +151,7 @@ TEST(Memory, aBuiltinSceneThatIsIncludedIsChargedBeforeItIsMade) {
     const std::filesystem::path file =
         folder.write("s.json", R"({"tessera": 1, "include": [{"file": "builtin:hall"}]})");
     EXPECT_THAT(errorUnder(importSceneJson, file, kMiB),
-                AllOf(HasSubstr("s.json: 'hall': asks for " + sizeText(builtinScene("hall")->bytes)),
+                AllOf(HasSubstr("s.json: 'hall': needs " + sizeText(builtinScene("hall")->bytes)),
                       HasSubstr("may take 1.0 MiB")));
 }
 
@@ -352,7 +352,7 @@ TEST(Memory, aBufferThatIsTooLargeIsNamedOnce) {
     builder.json["buffers"][0]["uri"] = "data:application/octet-stream;base64," + std::string(4 * kMiB, 'A');
     const TempFolder folder;
     const std::filesystem::path file = folder.write("m.gltf", builder.json.dump());
-    EXPECT_THAT(errorUnder(importGltf, file, 16 * kMiB), StartsWith(file.string() + ": /buffers/0: asks for"));
+    EXPECT_THAT(errorUnder(importGltf, file, 16 * kMiB), StartsWith(file.string() + ": /buffers/0: needs"));
 }
 
 TEST(Memory, everyWarningOfAGltfFileIsCharged) {

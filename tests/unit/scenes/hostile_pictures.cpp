@@ -39,7 +39,7 @@ TEST(HostilePicture, aProgressiveJpegIsChargedBeforeItsReaderReservesIt) {
     jpeg.resize(4096); // enough bytes to hold them
     EXPECT_LT(growthOf([&] {
                   EXPECT_THAT(refusalOf(jpeg, "a", 64 * kMiB),
-                              HasSubstr("a: the picture of 4000x4000 texels: asks for 91.6 MiB"));
+                              HasSubstr("a: the picture of 4000x4000 texels: needs 91.6 MiB"));
               }),
               8 * kMiB);
 }
@@ -48,7 +48,7 @@ TEST(HostilePicture, theCopyThatAReaderHoldsIsChargedWithTheTexels) {
     std::string jpeg = bytesOfSeed("picture/progressive.jpg");
     jpeg.resize(4096);
     // 6 bytes per texel are coefficients, 4 are kept.
-    EXPECT_THAT(refusalOf(jpeg, "a", 128 * kMiB), HasSubstr("asks for 61.0 MiB of memory, and 91.6 MiB are in use"));
+    EXPECT_THAT(refusalOf(jpeg, "a", 128 * kMiB), HasSubstr("needs 61.0 MiB of memory, and 91.6 MiB are in use"));
 }
 
 TEST(HostilePicture, scansOfAJpegAreBounded) {
@@ -71,7 +71,7 @@ TEST(HostilePicture, everyKindOfWebpIsChargedBeforeItsReaderReservesIt) {
         std::string webp = bytesOfSeed(seed);
         webp.resize(8192);
         EXPECT_THAT(refusalOf(webp, seed, 64 * kMiB),
-                    HasSubstr("webp: the picture of 8000x8000 texels: asks for 488.3 MiB of memory, and 0 B are"));
+                    HasSubstr("webp: the picture of 8000x8000 texels: needs 488.3 MiB of memory, and 0 B are"));
     }
 }
 
@@ -123,10 +123,10 @@ std::string tiledTiff(int type, std::uint32_t tileSide, ByteOrder order, std::ui
 
 TEST(HostilePicture, tilesOfATiffAreChargedWhole) {
     const std::string tiff = bytesOfSeed("picture/large_tiles.tif"); // 16 x 16 texels in a tile of 16384 x 16384
-    EXPECT_THAT(refusalOf(tiff, "a", 64 * kMiB), HasSubstr("a: the picture of 16x16 texels: asks for 512.0 MiB"));
+    EXPECT_THAT(refusalOf(tiff, "a", 64 * kMiB), HasSubstr("a: the picture of 16x16 texels: needs 512.0 MiB"));
     for (const ByteOrder order : {ByteOrder::Little, ByteOrder::Big}) {
-        EXPECT_THAT(refusalOf(tiledTiff(kLong, 16384, order), "a", 64 * kMiB), HasSubstr("asks for 512.0 MiB"));
-        EXPECT_THAT(refusalOf(tiledTiff(kLong, 0xfffffff0, order), "a"), HasSubstr("asks for"));
+        EXPECT_THAT(refusalOf(tiledTiff(kLong, 16384, order), "a", 64 * kMiB), HasSubstr("needs 512.0 MiB"));
+        EXPECT_THAT(refusalOf(tiledTiff(kLong, 0xfffffff0, order), "a"), HasSubstr("needs"));
         for (const int type : {kByte, kShort, kLong})
             EXPECT_EQ(decoded(tiledTiff(type, 16, order), "a").texels.at(0), std::byte{0x7f});
         EXPECT_THAT(refusalOf(tiledTiff(kLong8, 16384, order), "a"),
@@ -139,7 +139,7 @@ TEST(HostilePicture, tilesBeyondAPictureDoNotCountAsItsSide) {
         return refusalOf(tiledTiff(kLong, 256, ByteOrder::Little, side), "a", 64 * kMiB);
     };
     // 64 tiles of 256 cover 16384.
-    EXPECT_THAT(refusalOfSide(16383), HasSubstr("a: the picture of 16383x16383 texels: asks for 1.2 GiB"));
+    EXPECT_THAT(refusalOfSide(16383), HasSubstr("a: the picture of 16383x16383 texels: needs 1.2 GiB"));
     EXPECT_THAT(refusalOfSide(16385), HasSubstr("a: the picture has 16385x16385 texels; at most"));
 }
 
@@ -147,9 +147,9 @@ TEST(HostilePicture, stripsOfATiffAreChargedWhole) {
     std::vector<TiffEntry> entries = oneTexel();
     entries[0].value = entries[1].value = 8192;
     const auto refusal = [&] { return refusalOf(tiffOf(entries, "\x7f"), "a", 64 * kMiB); };
-    EXPECT_THAT(refusal(), HasSubstr("asks for 320.0 MiB of memory, and 16.")); // the texels, beside a row
+    EXPECT_THAT(refusal(), HasSubstr("needs 320.0 MiB of memory, and 16.")); // the texels, beside a row
     entries[5].value = 16384;
-    EXPECT_THAT(refusal(), HasSubstr("asks for 128.0 MiB of memory"));
+    EXPECT_THAT(refusal(), HasSubstr("needs 128.0 MiB of memory"));
 }
 
 TEST(HostilePicture, aPictureOfOneColourIsNotTooSmallAFile) {

@@ -136,7 +136,7 @@ TEST(Lattice, cameraIsExactlyTheSpecifiedOne) {
     EXPECT_EQ(camera.nearMetres, 0.1);
     EXPECT_EQ(camera.farMetres, 100.0);
     EXPECT_EQ(scene.background, glm::vec3(0.0f));
-    EXPECT_EQ(scene.options.wishes.at("size"), Wish(std::vector<double>{1280, 720}));
+    EXPECT_EQ(scene.options.requested.at("size"), OptionValue(std::vector<double>{1280, 720}));
 }
 
 } // namespace

@@ -73,7 +73,7 @@ TEST(LightTexture, picturesStayChargedWhileALoadKeepsThemThoughABasesLightsAreRe
     EXPECT_LT(bytesOf(scene), kMiB);
 }
 
-TEST(LightTexture, numbersThatAreNoLightAreReplacedAndTold) {
+TEST(LightTexture, numbersThatAreNoLightAreReplacedAndReported) {
     const SceneFolder folder;
     const float infinite = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     folder.write("glow.pfm", pfmOf(2, 1, {nan, -1.0f, 3.0f, infinite, 0.5f, 0.0f}));

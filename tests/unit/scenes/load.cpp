@@ -58,7 +58,7 @@ TEST_F(LoadScene, numberOfLightsIsFrom0ToTheMost) {
     options.lights = 0;
     const Scene dark = loadScene("lattice", options);
     EXPECT_TRUE(dark.lights.empty());
-    EXPECT_FALSE(dark.environment) << "who asks for no lights gets no default either";
+    EXPECT_FALSE(dark.environment) << "a request for no lights adds no default either";
 }
 
 TEST_F(LoadScene, aBuiltinScenesOwnLightsCountAmongThoseThatCanBeDrawn) {
@@ -67,7 +67,7 @@ TEST_F(LoadScene, aBuiltinScenesOwnLightsCountAmongThoseThatCanBeDrawn) {
     EXPECT_EQ(hall.lights.back().type, LightType::Directional) << "the sky stays";
 }
 
-TEST_F(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsRefusedUnlessItsFirstAreAskedFor) {
+TEST_F(LoadScene, aFileOfMoreLightsThanCanBeDrawnIsRefusedUnlessItsFirstAreRequested) {
     std::string text = R"({"tessera": 1, "lights": [{"type": "point", "position": [0, 0, 0], "intensity": 1})";
     for (int i = 1; i <= kMostLights; ++i) text += R"(,{"type": "point", "position": [0, 0, 0], "intensity": 1})";
     const std::string file = folder.file("many.json", text + "]}");
@@ -170,7 +170,7 @@ TEST_F(LoadScene, withTheDefaultCameraAFileIsSeenAndLitAsOneWithoutCamerasIs) {
     EXPECT_EQ(loadScene(bare, options).cameras, expected.cameras);
 }
 
-TEST_F(LoadScene, aBackgroundThatIsAskedForTakesThePlaceOfTheScenesOwn) {
+TEST_F(LoadScene, aBackgroundThatIsRequestedTakesThePlaceOfTheScenesOwn) {
     const std::string file = folder.file("blue.json", R"({"tessera": 1, "base": {"file": "builtin:room"},
             "environment": {"background": [0, 0, 1]}})");
     EXPECT_EQ(loadScene(file).background, glm::vec3(0.0f, 0.0f, 1.0f));

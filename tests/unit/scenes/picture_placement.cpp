@@ -120,7 +120,7 @@ TEST(PicturePlacement, texelsOfAnExrLieWhereItsDisplayWindowShowsThem) {
     EXPECT_THAT(ledger.takeWarnings(),
                 ElementsAre("a.exr: its display window of 2000001x1 texels is too large; the 3x2 "
                             "texels of its data window are taken alone"));
-    EXPECT_THAT(refusalOf(exrIn({0, 0, 9999, 9999}, 1.0f), "a.exr", 64 * kMiB), HasSubstr("asks for 1.5 GiB"));
+    EXPECT_THAT(refusalOf(exrIn({0, 0, 9999, 9999}, 1.0f), "a.exr", 64 * kMiB), HasSubstr("needs 1.5 GiB"));
 }
 
 TEST(PicturePlacement, environmentsAndPicturesToCompareAreTurnedByExifButTexturesAreNot) {

@@ -80,11 +80,11 @@ TEST_F(HookFault, onlyErrorsWithinTheHookNameIt) {
 
 /// An empty hook is a valid hook, and no text of the scene's hook is left in the program.
 TEST_F(HookFault, aProgramWithAnEmptyHookHoldsNothingOfTheScenes) {
-    ProgramDesc asking = withEmptyHook(desc);
-    asking.vertex.clear();
-    asking.fragment.clear();
-    asking.compute = "passes/hook_surfaces.comp";
-    const std::vector<ExpandedStage> stages = expandStages(SourceTree::embedded(), asking);
+    ProgramDesc query = withEmptyHook(desc);
+    query.vertex.clear();
+    query.fragment.clear();
+    query.compute = "passes/hook_surfaces.comp";
+    const std::vector<ExpandedStage> stages = expandStages(SourceTree::embedded(), query);
     ASSERT_EQ(stages.size(), 1u);
     EXPECT_THAT(stages[0].source.text, HasSubstr("hookSurface(inout HookedSurface surface, HookInputs inputs) {}"));
     EXPECT_THAT(stages[0].source.text, Not(HasSubstr("float red;")));

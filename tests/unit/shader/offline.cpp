@@ -110,7 +110,7 @@ void addPrograms(Programs& programs, const scenes::Scene& scene, std::size_t tur
         if (settings.view == frame::DebugView::Final && settings.samples == 1)
             addLowerBoundPrograms(programs, engine::prepareView(scene, engine::Technique::Forward, settings).spec);
         for (const engine::TechniqueInfo& technique : engine::techniqueTable()) {
-            if (engine::takesSamples(technique, settings.samples) && engine::takesView(technique, settings.view))
+            if (engine::supportsSamples(technique, settings.samples) && engine::supportsView(technique, settings.view))
                 addFrame(programs, scene, technique.technique, settings);
         }
     }
@@ -147,13 +147,13 @@ void addHookedPrograms(Programs& programs) {
         std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "pulsating_lattice.glsl";
     scene.hook->parameters = {{"breathsASecond"}, {"swell"}, {"glow"}};
     scene.hook->movesVertices = true;
-    const shader::ProgramDesc asking = engine::hookProgram(engine::kHookSurfaces, *scene.hook);
+    const shader::ProgramDesc query = engine::hookProgram(engine::kHookSurfaces, *scene.hook);
     scenes::Hook waving;
     waving.file = std::filesystem::path(TESSERA_SOURCE_DIR) / "scenes" / "files" / "flag.glsl";
     waving.parameters = {{"wind"}};
     waving.movesVertices = true;
     const shader::ProgramDesc moving = engine::hookProgram(engine::kHookVertices, waving);
-    for (const shader::ProgramDesc& desc : {asking, moving}) {
+    for (const shader::ProgramDesc& desc : {query, moving}) {
         add(programs, desc);
         add(programs, shader::withEmptyHook(desc)); // checks for faulty hooks, so it must be valid
     }

@@ -60,14 +60,14 @@ TEST(BenchMatrix, pointsAreCountedBeforeTheyArePlanned) {
     const std::string one = R"({"technique": ["forward"], )";
     EXPECT_EQ(matrixOf(one + two + sizes + "]}").lights.size(), 100u);
     EXPECT_EQ(refusal(one + two + sizes + R"(, "9x9"]})"),
-              "m.json: asks for 1.1e+05 points, the product of its lists' lengths; at most 100000 can be measured: "
+              "m.json: needs 1.1e+05 points, the product of its lists' lengths; at most 100000 can be measured: "
               "shorten the lists, or divide them over several runs");
-    EXPECT_THAT(refusal("{" + two + sizes + "]}"), testing::StartsWith("m.json: asks for 8e+05 points"))
+    EXPECT_THAT(refusal("{" + two + sizes + "]}"), testing::StartsWith("m.json: needs 8e+05 points"))
         << "of every technique";
     const std::string counted = hundred.substr(hundred.find(',') + 1); // 1 to 99
     EXPECT_THAT(refusal(one + R"("shadowSamples": [)" + counted +
                         R"(], "environmentSamples": [1, 4, 16, 64, 1, 4, 16, 64, 1, 4, 16]})"),
-                testing::StartsWith("m.json: asks for 1.09e+03 combinations of settings"));
+                testing::StartsWith("m.json: needs 1.09e+03 combinations of settings"));
 }
 
 TEST(ShadowMatrix, valuesHaveTheBoundsOfTheSettings) {
@@ -145,7 +145,7 @@ TEST(ShadowMatrix, aSceneWithoutShadowsIsOnePoint) {
 TEST(ShadowMatrix, theTruthHasTheShadowsOfTheCommandLineWhateverThePointsHave) {
     const PlannedGroup group = planOf("shadow_truth", R"({"shadow": ["none", "hard"]})").groups.front();
     EXPECT_EQ(group.points.front().settings.shadows.kind, scenes::ShadowRequest::Kind::None);
-    EXPECT_EQ(group.settings.shadows.kind, scenes::ShadowRequest::Kind::Asked);
+    EXPECT_EQ(group.settings.shadows.kind, scenes::ShadowRequest::Kind::Scene);
     const frame::FrameSettings exact = exactSettings(group.points[1].settings, frame::TextureFilter::Exact);
     EXPECT_EQ(exact.shadowFilter, frame::ShadowFilter::Traced);
 }
@@ -170,7 +170,7 @@ TEST(ShadowPoints, theRecordHasEverySettingThatCountsAndAReasonForTheOthers) {
     EXPECT_EQ(points[2]["shadowWidth"], 5);
     EXPECT_EQ(points[2]["shadowBudget"], 0.5);
     EXPECT_EQ(points[2]["why"]["shadowSamples"],
-              "no shadow is soft: no light with a size casts one, or the filter heeds no sizes");
+              "no shadow is soft: no light with a size casts one, or the filter ignores the sizes");
     EXPECT_EQ(points[3]["shadow"], "none");
     EXPECT_EQ(points[3]["why"]["shadowResolution"], "there are no shadows");
     for (const nlohmann::ordered_json& point : points)
@@ -221,7 +221,7 @@ TEST(ShadowPoints, curvesJoinPointsThatFindShadowsAlike) {
     EXPECT_EQ(scalingCurves(std::vector<BenchGroup>{few, many}).size(), 3u);
 }
 
-TEST(SubsurfaceMatrix, methodsAndSettingsOfSpreadLightAreVariedWhereTheyChangeTheFrame) {
+TEST(SubsurfaceMatrix, methodsAndSettingsOfDiffusionAreVariedWhereTheyChangeTheFrame) {
     const BenchPlan plan = planOf("diffusion_truth", R"({"subsurface": ["none", "wrap", "texture_space_diffusion"],
                                                          "diffusionTexels": [64, 1024], "diffusionHalf": [true]})");
     EXPECT_THAT(namesOf(plan),
@@ -245,7 +245,7 @@ TEST(SubsurfacePoints, theRecordHasThemAndReadsThemAgain) {
     EXPECT_EQ(points[0]["diffusionTexels"], 256);
     EXPECT_EQ(points[0]["diffusionHalf"], true);
     EXPECT_EQ(points[1]["subsurface"], "wrap");
-    EXPECT_EQ(points[1]["why"]["diffusionTexels"], "no light spreads");
+    EXPECT_EQ(points[1]["why"]["diffusionTexels"], "no surface diffuses light");
     EXPECT_EQ(points[2]["why"]["subsurface"], "no material has a subsurface");
     const BenchGroup again = groupFromJson(groupJson(group));
     for (std::size_t i = 0; i < group.results.size(); ++i) EXPECT_EQ(again.results[i].key, group.results[i].key);
@@ -274,7 +274,7 @@ TEST(EnvironmentMatrix, valuesHaveTheBoundsOfTheSettings) {
     EXPECT_EQ(refusal(R"({"environmentLight": ["off", "sampled"], "environmentCompensation": [true]})"), "");
 }
 
-TEST(EnvironmentMatrix, everySettingIsVariedWhereItIsHeeded) {
+TEST(EnvironmentMatrix, everySettingIsVariedWhereItIsUsed) {
     const BenchPlan plan =
         planOf("room", R"({"environmentLight": ["split_sum", "sampled", "off"], "environmentSamples": [4, 64],
                            "environmentCompensation": [false, true]})",

@@ -136,7 +136,7 @@ TEST(Recommend, theFastestPointOfAcceptableErrorIsTaken) {
     EXPECT_THAT(text, HasSubstr("The most exact is deferred, exact: 2.5x faster"));
 }
 
-TEST(Recommend, ofTimesThatTheSpreadDoesNotTellApartTheSmallerErrorIsTaken) {
+TEST(Recommend, ofTimesThatTheSpreadDoesNotDistinguishTheSmallerErrorIsTaken) {
     // Made-up spreads are a tenth: 32 and 30 ms lie within each other's, 34 and 30 ms do not.
     const BenchGroup near =
         madeUpGroup(257, {madeUpResult("forward", 100, 1e-9), madeUpResult("deferred", 30, 2e-5, "packed"),
@@ -179,14 +179,14 @@ TEST(Recommend, noSpeedIsClaimedThatTheSpreadDoesNotShow) {
     EXPECT_EQ(choice->exact, nullptr);
 }
 
-TEST(Recommend, disturbedTimesAreToldSo) {
+TEST(Recommend, disturbedTimesAreReportedSo) {
     BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 40, 1e-9), madeUpResult("deferred", 10, 1e-9)});
     EXPECT_THAT(recommendationText(group), testing::StartsWith("For "));
-    EXPECT_TRUE(recommendFor(group)->takes(group.results[1]));
-    EXPECT_FALSE(recommendFor(group)->takes(group.results[0]));
+    EXPECT_TRUE(recommendFor(group)->recommends(group.results[1]));
+    EXPECT_FALSE(recommendFor(group)->recommends(group.results[0]));
     group.results[1].times.cpuMs.p95 = 21.0;
-    EXPECT_FALSE(recommendFor(group)->takes(group.results[1]));
-    EXPECT_THAT(recommendationText(group), testing::StartsWith("The machine was too busy to tell"));
+    EXPECT_FALSE(recommendFor(group)->recommends(group.results[1]));
+    EXPECT_THAT(recommendationText(group), testing::StartsWith("The machine was too busy to decide"));
     group.results[1].ratioToFloor = 0.5;
     EXPECT_THAT(recommendationText(group), HasSubstr("No frame can be faster than its lower bound"));
 }
@@ -199,7 +199,7 @@ TEST(Recommend, noTechniqueIsRecommendedWhereThereIsNothingToCull) {
                                Not(HasSubstr("take "))));
 }
 
-TEST(Recommend, aGroupWithoutAnAcceptablePointIsToldSo) {
+TEST(Recommend, aGroupWithoutAnAcceptablePointIsReportedSo) {
     const BenchGroup group = madeUpGroup(10, {madeUpResult("forward", 10, 0.2), madeUpResult("deferred", 5, 0.9)});
     EXPECT_EQ(recommendFor(group)->best, &group.results[0]);
     EXPECT_THAT(recommendationText(group), HasSubstr("Nothing here stays below relMSE 0.0001"));

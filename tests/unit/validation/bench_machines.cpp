@@ -82,7 +82,7 @@ TEST_F(BenchMachines, groupsThatAMachineDidNotMeasureAreEmptyAndSaidToBeElsewher
     const std::vector<MachineGroup> groups = machineGroups(machines);
     ASSERT_EQ(groups.size(), 4u);
     for (std::size_t i = 0; i < groups.size(); ++i) {
-        EXPECT_EQ(groups[i].group->lights, 10 << i) << "in the order of lights, whoever measured them";
+        EXPECT_EQ(groups[i].group->lights, 10 << i) << "in the order of lights, from any machine";
         const std::size_t has = i % 2;
         EXPECT_TRUE(groups[i].rows[0].cells[has]);
         EXPECT_FALSE(groups[i].rows[0].cells[1 - has]);

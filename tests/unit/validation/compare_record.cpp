@@ -86,7 +86,7 @@ TEST(CompareRecord, jsonHoldsTheFiguresWithEveryDigit) {
     EXPECT_EQ(pair["tolerance"]["maxRel"].get<double>(), 0.25);
     EXPECT_TRUE(pair["tolerance"]["bias"].is_null());
     EXPECT_FALSE(pair["ok"].get<bool>());
-    EXPECT_EQ(pair["missed"][0], "maxRel is 0.5, at most 0.25 was asked");
+    EXPECT_EQ(pair["missed"][0], "maxRel is 0.5, at most 0.25 is required");
     EXPECT_EQ(pair["nan"], 0);
 }
 
@@ -147,8 +147,8 @@ TEST(CompareRecord, theTableShowsEveryPairAndItsMissedTolerances) {
               "pair                 bit-equal  max rel  p99.9 rel   relMSE     bias  FLIP   PSNR    lit  verdict\n"
               "deferred vs forward      100 %        0          0        0        0     0  equal  100 %  ok\n"
               "packed vs forward     75.000 %  5.0e-01    5.0e-01  2.1e-02  2.7e-02     0  equal  100 %  MISSED\n"
-              "missed: packed vs forward: maxRel is 0.5, at most 0.25 was asked\n"
-              "missed: packed vs forward: relMse is 0.0206270627, at most 0.0001 was asked\n");
+              "missed: packed vs forward: maxRel is 0.5, at most 0.25 is required\n"
+              "missed: packed vs forward: relMse is 0.0206270627, at most 0.0001 is required\n");
 }
 
 TEST(CompareRecord, theFractionOfExcludedPixelsIsReported) {
@@ -188,16 +188,16 @@ TEST(CompareRecord, theErrorOfARangeToleranceIsReportedWhereOneIsSet) {
     EXPECT_FALSE(nothing["why"]["bias"].get<std::string>().empty());
 }
 
-TEST(CompareRecord, tellsWhatTheReferenceKnowsOfSpreadLight) {
+TEST(CompareRecord, reportsTheFiguresOfTheReferenceForDiffusedLight) {
     CompareRecord record = sampleRecord();
     EXPECT_FALSE(Json::parse(compareJson(record)).contains("spreadLight"));
-    EXPECT_THAT(compareTable(record), testing::Not(HasSubstr("spread light")));
-    record.spreadLight = {7, 1.25, 0.125};
+    EXPECT_THAT(compareTable(record), testing::Not(HasSubstr("diffused light")));
+    record.diffusedLight = {7, 1.25, 0.125};
     const Json json = Json::parse(compareJson(record))["spreadLight"];
     EXPECT_THAT(keys(json), ElementsAre("pixels", "integral", "facingAway"));
     EXPECT_EQ(json["integral"], 1.25);
     EXPECT_THAT(compareTable(record),
-                HasSubstr("spread light: in 7 pixels; the profile's integral over the surface, by "
+                HasSubstr("diffused light: in 7 pixels; the profile's integral over the surface, by "
                           "which the reference divides, is 1.25 on average; 12.500 % of it"));
 }
 
@@ -218,7 +218,7 @@ TEST(FigureText, aShareReadsHundredPercentExactlyWhenItIs) {
     EXPECT_EQ(decibelText(40.04), "40.0 dB");
 }
 
-TEST(CompareRecord, tellsOfNoiseAndOfUndecidedPixelsOfShadows) {
+TEST(CompareRecord, reportsNoiseAndOfUndecidedPixelsOfShadows) {
     const Picture a = greyPicture(2, 1, 1.f);
     CompareRecord record{"hall", 2, 1, "llvmpipe", {comparePair("forward", a, "reference", a, {})}};
     EXPECT_EQ(compareTable(record).find("shadows:"), std::string::npos);

@@ -82,7 +82,7 @@ TEST(ErrorFigures, litIsAboveATenThousandthOfTheTruthsHighPercentile) {
     EXPECT_NEAR(errorFigures(b, b).typicalLuminance, double(0.002f), kRounding);
 }
 
-TEST(ErrorFigures, bitEqualTellsApartTheLastBitButNotTheSignOfZero) {
+TEST(ErrorFigures, bitEqualDistinguishesTheLastBitButNotTheSignOfZero) {
     Picture b = pictureOf(4, 1, {{1, 1, 1}, {0.f, 1, 1}, {1, 1, 1}, {1, 1, 1}});
     Picture a = b;
     setPixel(a, 1, {-0.f, 1, 1});

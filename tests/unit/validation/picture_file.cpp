@@ -149,7 +149,7 @@ TEST(PictureFile, picturesAreChargedBeforeTheyAreDecoded) {
     EXPECT_THAT(ledger.files(), ElementsAre(folder.file("a.exr")));
     EXPECT_THAT(
         test::errorText<InputError>([&] { underLedger(readPicture, folder.file("a.exr"), std::uint64_t{2} << 20); }),
-        HasSubstr("a.exr: the picture of 512x512 texels: asks for 4.0 MiB of memory"));
+        HasSubstr("a.exr: the picture of 512x512 texels: needs 4.0 MiB of memory"));
 }
 
 TEST(PictureFile, aPictureWithADataWindowIsComparedAsDisplayed) {

@@ -104,12 +104,12 @@ TEST(Report, aBenchmarksPageIsWellFormedAndFullyEscaped) {
     record.groups[0].pictures = {{"reference", {}, "a.png", "", 0}, {"<x>", {"<x>", "y"}, "b.png", "c.png", 1}};
     record.skipped = {{"forward, packed", "no <G-buffer>"}};
     Report report = sampleReport();
-    std::vector<std::string> asked;
-    report.bench = benchHtml(record, record.groups[0], [&asked](const std::string& file) {
-        asked.push_back(file);
+    std::vector<std::string> requested;
+    report.bench = benchHtml(record, record.groups[0], [&requested](const std::string& file) {
+        requested.push_back(file);
         return std::vector<std::uint8_t>{1, 2, 3};
     });
-    EXPECT_THAT(asked, testing::ElementsAre("a.png", "b.png", "c.png"));
+    EXPECT_THAT(requested, testing::ElementsAre("a.png", "b.png", "c.png"));
     const std::string html = reportHtml(report);
     EXPECT_EQ(faultOf(html), "");
     EXPECT_THAT(html, HasSubstr("Error against run time"));
@@ -194,7 +194,7 @@ TEST(Report, theVerdictSaysHowManyPairsMissed) {
         reportHtml(report),
         HasSubstr("1 of 2 comparisons missed a tolerance or lost geometry; each one below lists what it missed."));
     EXPECT_THAT(reportHtml(report),
-                HasSubstr("<li>maxRel is 0.5, at most <span class=\"whole\">1e-05</span> was asked</li>"));
+                HasSubstr("<li>maxRel is 0.5, at most <span class=\"whole\">1e-05</span> is required</li>"));
     report.record.pairs.pop_back();
     EXPECT_THAT(reportHtml(report), HasSubstr("The comparison holds."));
     report.record.pairs.clear();

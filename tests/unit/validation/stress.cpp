@@ -105,7 +105,7 @@ TEST(StressFigures, aSampleCountsOnceAKind) {
     EXPECT_EQ(figures.negative, 2u);
 }
 
-TEST(StressFigures, theWorstErrorTellsWhereItIsAndNaNIsTheWorst) {
+TEST(StressFigures, theWorstErrorReportsWhereItIsAndNaNIsTheWorst) {
     StressFigures figures;
     figures.error(0.5, [] { return "a"; });
     figures.error(0.25, [] { return "b"; });
@@ -134,7 +134,7 @@ TEST(StressResult, holdsExactlyWhenNothingIsBadAndItsFigureIsWithinTheTolerance)
     EXPECT_EQ(missedBy([](StressResult& r) { r.figures.negative = 1; }).size(), 1u);
     EXPECT_EQ(missedBy([](StressResult& r) { r.figures.samples = 0; }).size(), 1u);
     EXPECT_THAT(missedBy([](StressResult& r) { r.figures.worstRel = 0.5; }),
-                testing::ElementsAre("the worst relative error is 0.5, at most 0.001 was asked; at somewhere"));
+                testing::ElementsAre("the worst relative error is 0.5, at most 0.001 is required; at somewhere"));
     // A case may bound the other figure instead.
     EXPECT_TRUE(missedBy([](StressResult& r) {
                     r.bound = StressBound::RelMse;

@@ -30,15 +30,15 @@ TEST(TechniqueCompare, onHardwareSumsByBlendingAreHeldToExactlyTheBoundOfTheirNu
 }
 
 TEST(TechniqueCompare, settingsOfHowAPictureIsMadeGoToTheTechniquesThatTakeThem) {
-    frame::FrameSettings asked;
-    asked.lightOn = frame::LightingStage::Compute;
-    asked.culling = {culling::Method::Cluster, 32, culling::Builder::Compute, {}, {}};
-    asked.exposureEV = 2.0f;
-    const frame::FrameSettings forward = settingsTakenBy(Technique::Forward, asked);
+    frame::FrameSettings requested;
+    requested.lightOn = frame::LightingStage::Compute;
+    requested.culling = {culling::Method::Cluster, 32, culling::Builder::Compute, {}, {}};
+    requested.exposureEV = 2.0f;
+    const frame::FrameSettings forward = supportedSettings(Technique::Forward, requested);
     EXPECT_EQ(forward.lightOn, frame::FrameSettings().lightOn);
     EXPECT_EQ(forward.culling, culling::Settings());
     EXPECT_EQ(forward.exposureEV, 2.0f) << "which is no setting of how the picture is made";
-    EXPECT_EQ(settingsTakenBy(Technique::ClusteredDeferred, asked), asked);
+    EXPECT_EQ(supportedSettings(Technique::ClusteredDeferred, requested), requested);
     for (const engine::Setting& setting : engine::settingTable()) {
         const bool isHow = setting.key == "culling" || setting.key == "tile" || setting.key == "cullOn" ||
                            setting.key == "cullNormals" || setting.key == "lightOn";

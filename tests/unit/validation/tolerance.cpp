@@ -116,7 +116,7 @@ TEST(Tolerance, everyLimitIsCheckedExactlyAtItsValue) {
     EXPECT_TRUE(passes({.bias = 0.0, .biasNoises = 1.001}));
     EXPECT_FALSE(passes({.bias = 0.0, .biasNoises = 0.999}));
     EXPECT_THAT(checkTolerance(figures, {.maxRel = 0.25, .bitEqual = 1.0}).missed,
-                ElementsAre("maxRel is 0.5, at most 0.25 was asked", "bitEqual is 0.5, at least 1 was asked"));
+                ElementsAre("maxRel is 0.5, at most 0.25 is required", "bitEqual is 0.5, at least 1 is required"));
 }
 
 TEST(Tolerance, aFigureThatCouldNotBeMeasuredNeverHolds) {

@@ -12,7 +12,7 @@ namespace {
 
 using namespace test;
 
-TEST(Controls, twoClicksInOnePlaceSoonAfterOneAnotherAskToTurnAboutIt) {
+TEST(Controls, twoClicksInOnePlaceSoonAfterOneAnotherRequestToTurnAboutIt) {
     State state = withLightInTheMiddle(0, 1);
     Controls controls;
     const auto click = [&](const glm::vec2& place, double seconds) {
@@ -71,7 +71,7 @@ TEST(Controls, whatIsInspectedIsUnderThePointerAndElseWhatIsPinned) {
         handle(controls, state, {moveTo(place)}, {.mouse = isAtPanel});
         return state.inspectedPlace();
     };
-    EXPECT_FALSE(pointTo({100.0f, 300.0f}, false)) << "nobody asked";
+    EXPECT_FALSE(pointTo({100.0f, 300.0f}, false)) << "no request";
     state.inspects = true;
     EXPECT_EQ(pointTo({100.0f, 300.0f}, false), glm::vec2(0.25f, 0.75f));
     EXPECT_FALSE(pointTo({100.0f, 300.0f}, true));
@@ -149,13 +149,13 @@ TEST(Controls, aQuestionIsAnsweredByItsKeysAndByNothingElse) {
         handle(controls, state, {key(code, modifiers)});
         return std::exchange(state.requests.answer, std::nullopt);
     };
-    EXPECT_FALSE(answerTo('D', 0)) << "nothing was asked";
+    EXPECT_FALSE(answerTo('D', 0)) << "no question is open";
     state.question = Question{};
     EXPECT_EQ(answerTo('S', 0), Answer::Keep);
     EXPECT_EQ(answerTo('D', 0), Answer::Discard);
     EXPECT_EQ(answerTo(kEscapeKey, 0), Answer::Cancel);
     EXPECT_FALSE(answerTo('Q', kControl));
-    EXPECT_FALSE(state.requests.quit) << "to ask for the same again is no answer";
+    EXPECT_FALSE(state.requests.quit) << "the same request again is no answer";
     EXPECT_FALSE(answerTo('S', kControl));
     EXPECT_FALSE(state.requests.saveScene);
     state.question->about = Question::About::Recovering;
@@ -202,7 +202,7 @@ TEST(Controls, theEdgeOfThePanelsIsDraggedWithinBounds) {
     EXPECT_EQ(widthAt(500.0f), 800.0f);
 }
 
-TEST(Controls, whileTheDialogOfFilesAsksKeysAndThePictureWait) {
+TEST(Controls, whileTheDialogOfFilesIsOpenKeysAndThePictureWait) {
     State state = withLightInTheMiddle(0, 1);
     state.files.emplace(FileDialog::Purpose::Open, "/");
     EXPECT_EQ(selectedByPress(state), scenes::kNone);

@@ -13,7 +13,7 @@ namespace {
 
 class Dialogs : public test::PanelTest {};
 
-TEST_F(Dialogs, theDialogAsksAboutUnsavedEditsUntilItIsAnswered) {
+TEST_F(Dialogs, theDialogAboutUnsavedEditsStaysUntilItIsAnswered) {
     State state = test::unusualScene();
     const auto isOpen = [&] {
         show([&] { questionDialog(state, 1.0f); });
@@ -46,7 +46,7 @@ TEST_F(Dialogs, theDialogOfFilesTakesTypedTextAndWaitsForAQuestion) {
     state.files.emplace(FileDialog::Purpose::Open, folder.path());
     EXPECT_TRUE(isOpen());
     EXPECT_TRUE(isOpen());
-    EXPECT_TRUE(io.WantTextInput) << "nobody has to click the field first";
+    EXPECT_TRUE(io.WantTextInput) << "the field needs no click first";
     io.AddInputCharacter('o');
     EXPECT_TRUE(isOpen());
     EXPECT_EQ(state.files->text(), "o");
@@ -91,7 +91,7 @@ TEST_F(Dialogs, theDialogOfFilesHearsEveryKeyHoweverFewFramesThereAreBetweenThem
         io.KeyCtrl = io.KeysDown[test::kControlKey];
         frame([&] { fileDialog(state, 1.0f); });
     }
-    EXPECT_FALSE(state.files) << "Enter asks, once more is no answer, and Ctrl+Enter replaces";
+    EXPECT_FALSE(state.files) << "Enter shows a question, once more is no answer, and Ctrl+Enter replaces";
     EXPECT_EQ(state.requests.saveAs, file);
     EXPECT_GT(most, 1) << "keys before the field listens are not what is tested";
     EXPECT_LT(most, FileDialog::kMostWaits) << "they were let go before it listened";

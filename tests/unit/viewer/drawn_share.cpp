@@ -18,7 +18,7 @@ TEST(DrawnShare, passesCountByWhatTheyTookBefore) {
     EXPECT_EQ(drawnShare(before, {9, 0.5}), 1.0) << "more passes than there were";
 }
 
-TEST(DrawnShare, ofNothingNobodyKnows) {
+TEST(DrawnShare, ofNothingIsUnknown) {
     EXPECT_FALSE(drawnShare({}, {1, 0.5}));
     const std::vector<gpu::PassTiming> idle{{"clear", 0.0, 0.0}};
     EXPECT_FALSE(drawnShare(idle, {0, 0.5}));

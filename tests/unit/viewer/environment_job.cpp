@@ -78,7 +78,7 @@ TEST_F(EnvironmentJobTest, loadsAndFiltersInTheBackground) {
     EXPECT_NE(unknown.error.find("'studio'"), std::string::npos) << unknown.error;
 }
 
-TEST_F(EnvironmentJobTest, itTellsHowFarTheChoiceAloneIs) {
+TEST_F(EnvironmentJobTest, itReportsHowFarTheChoiceAloneIs) {
     const EmptyCache cache;
     EXPECT_FALSE(job().share());
     chosen("studio");
@@ -92,17 +92,17 @@ TEST_F(EnvironmentJobTest, itTellsHowFarTheChoiceAloneIs) {
     EXPECT_FALSE(shareAtEnd()) << "there is nothing to filter";
 }
 
-TEST(EnvironmentProgress, isTheMostThatWasToldAndFilteringComesAfterComputing) {
+TEST(EnvironmentProgress, isTheMostThatWasReportedAndFilteringComesAfterComputing) {
     EnvironmentProgress progress;
     EXPECT_FALSE(progress.latest());
-    progress.tell({false, 0.5});
-    progress.tell({false, 0.25}); // from another thread
+    progress.report({false, 0.5});
+    progress.report({false, 0.25}); // from another thread
     EXPECT_EQ(progress.latest(), (EnvironmentShare{false, 0.5}));
-    progress.tell({false, 1.0});
-    progress.tell({true, 0.0});
+    progress.report({false, 1.0});
+    progress.report({true, 0.0});
     EXPECT_EQ(progress.latest(), (EnvironmentShare{true, 0.0}));
-    progress.tell({false, 1.0});
-    progress.tell({true, 0.5});
+    progress.report({false, 1.0});
+    progress.report({true, 0.5});
     EXPECT_EQ(progress.latest(), (EnvironmentShare{true, 0.5}));
     progress.begin();
     EXPECT_FALSE(progress.latest());

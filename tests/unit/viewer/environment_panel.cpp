@@ -31,7 +31,7 @@ TEST_F(EnvironmentPanel, takesNoValueWhereThereIsNoEnvironment) {
     }
 }
 
-TEST_F(EnvironmentPanel, tellsHowFarOneIsThatIsLoaded) {
+TEST_F(EnvironmentPanel, showsTheProgressOfOneThatIsLoaded) {
     State state = test::stateOf(scenes::loadScene("room"));
     Facts facts;
     const auto says = [&](const std::string& words) {
@@ -48,15 +48,15 @@ TEST_F(EnvironmentPanel, tellsHowFarOneIsThatIsLoaded) {
 
 TEST_F(EnvironmentPanel, aLoadThatEscCancelsGoesBeforeThePictureThatItWillReplace) {
     Facts facts;
-    EXPECT_FALSE(facts.told());
+    EXPECT_FALSE(facts.shownProgress());
     facts.progress = {"Drawing the whole picture", 0.5, true};
-    EXPECT_EQ(facts.told(), facts.progress);
+    EXPECT_EQ(facts.shownProgress(), facts.progress);
     facts.background = {"Loading sky", {}, true};
-    EXPECT_EQ(facts.told(), facts.background);
+    EXPECT_EQ(facts.shownProgress(), facts.background);
     facts.background->canCancel = false; // like a scene
-    EXPECT_EQ(facts.told(), facts.progress);
+    EXPECT_EQ(facts.shownProgress(), facts.progress);
     facts.progress.reset();
-    EXPECT_EQ(facts.told(), facts.background);
+    EXPECT_EQ(facts.shownProgress(), facts.background);
 }
 
 TEST_F(EnvironmentPanel, offersFilesThatWereUsedAndTheDialogForOthers) {
@@ -92,9 +92,9 @@ TEST_F(EnvironmentPanel, offersFilesThatWereUsedAndTheDialogForOthers) {
         clickEntry(entry);
         EXPECT_EQ(state.requests.environment, expected);
     }
-    EXPECT_FALSE(state.requests.askWhatToOpen);
+    EXPECT_FALSE(state.requests.showOpenDialog);
     clickEntry(3 + builtins);
-    EXPECT_TRUE(state.requests.askWhatToOpen);
+    EXPECT_TRUE(state.requests.showOpenDialog);
 }
 
 TEST_F(EnvironmentPanel, keepsItsRowsInPlaceWhileOneIsLoadedWhateverItIsCalled) {
@@ -111,7 +111,7 @@ TEST_F(EnvironmentPanel, keepsItsRowsInPlaceWhileOneIsLoadedWhateverItIsCalled) 
     const float before = bottom();
     const std::string name = "kloofendal_" + std::string(80, 'x') + "_8k.hdr";
     state.loadingEnvironment = name;
-    EXPECT_EQ(bottom(), before) << "nothing is told yet";
+    EXPECT_EQ(bottom(), before) << "nothing is shown yet";
     std::string kept;
     for (const double share : {0.0, 0.09, 0.31, 1.0}) {
         facts.background = {"Filtering " + name, share, true};

@@ -127,7 +127,7 @@ TEST_F(Files, aPathIsTakenFromTheRootAndFromHome) {
     EXPECT_EQ(dialog.folder(), folder_.path());
 }
 
-TEST_F(Files, whatCannotBeOpenedOrReadTellsWhy) {
+TEST_F(Files, whatCannotBeOpenedOrReadReportsWhy) {
     FileDialog dialog = open();
     expectFault(dialog, "absent.glb", at("absent.glb") + " is not there");
     expectFault(dialog, "notes.txt", at("notes.txt") + " is no file that can be opened");
@@ -158,11 +158,11 @@ TEST_F(Files, aNameThatIsThereIsReplacedOnlyWhenSaid) {
     EXPECT_EQ(dialog.accept(), at("new.json"));
     dialog.type("picture.png");
     EXPECT_EQ(dialog.accept(), std::nullopt);
-    EXPECT_TRUE(dialog.asksToReplace());
+    EXPECT_TRUE(dialog.confirmsReplacing());
     EXPECT_EQ(dialog.accept(), std::nullopt) << "Enter twice is no answer";
     EXPECT_EQ(dialog.accept(true), at("picture.png"));
     dialog.type("picture2.png");
-    EXPECT_FALSE(dialog.asksToReplace());
+    EXPECT_FALSE(dialog.confirmsReplacing());
     expectFault(dialog, "picture.jpg", "A name ends in one of .json, .exr, .png");
     expectFault(dialog, "nowhere/a.png", at("nowhere") + " is no folder");
 }
@@ -176,7 +176,7 @@ TEST_F(Files, aNameGoesAlongIntoFoldersThatAreChosen) {
     dialog.choose(1); // x.exr, which is there
     EXPECT_EQ(dialog.accept(), std::nullopt);
     EXPECT_EQ(dialog.text(), "x.exr");
-    EXPECT_TRUE(dialog.asksToReplace());
+    EXPECT_TRUE(dialog.confirmsReplacing());
     EXPECT_EQ(dialog.accept(true), at("maps/x.exr"));
 }
 
@@ -197,7 +197,7 @@ TEST_F(Files, namesOfAnyBytesGoThroughTheFieldUnchanged) {
     FileDialog saving = save(smile);
     EXPECT_EQ(saving.accept(), std::nullopt);
     saving.typeInField(saving.inField()); // as in each frame
-    EXPECT_TRUE(saving.asksToReplace());
+    EXPECT_TRUE(saving.confirmsReplacing());
     EXPECT_EQ(saving.accept(true), at(smile));
 }
 
@@ -228,9 +228,9 @@ TEST(FileTypes, areFoundInAnyCaseAndSayOnceWhatTheyAre) {
     EXPECT_EQ(fileTypeOf("glb"), nullptr);
 }
 
-TEST(FileTypes, ofFilesDroppedAtOnceTheFirstThatOpensIsTakenAndTheOthersAreTold) {
+TEST(FileTypes, ofFilesDroppedAtOnceTheFirstThatOpensIsTakenAndTheOthersAreReported) {
     const Dropped alone = takeDropped(FileNames{"/a/b.txt"});
-    EXPECT_EQ(alone.taken, "/a/b.txt") << "loading tells why not";
+    EXPECT_EQ(alone.taken, "/a/b.txt") << "loading reports why not";
     EXPECT_EQ(alone.left, "");
     const Dropped several = takeDropped(FileNames{"/a/b.png", "/c/sky.hdr", "/c/d.json"});
     EXPECT_EQ(several.taken, "/c/sky.hdr");

@@ -352,7 +352,7 @@ TEST(History, environmentsComeBackWithTheirFilterAndWarnings) {
     open->undo();
     EXPECT_EQ(open->filteredEnvironment(), before);
     EXPECT_EQ(open->scene().warnings, warnings);
-    EXPECT_EQ(open->environmentRevision(), 2u) << "the renderer is told of it";
+    EXPECT_EQ(open->environmentRevision(), 2u) << "the renderer gets the change";
     open->redo();
     EXPECT_EQ(open->filteredEnvironment(), filtered);
     EXPECT_EQ(open->scene().warnings.back(), "of the map");

@@ -71,7 +71,7 @@ TEST(InputQueue, buttonsWheelAndKeysAreUrgentButNotAKeyThatIsHeld) {
     held.repeated = true;
     queue.push(held);
     queue.push(at(Kind::Character, 1.0f, 'w')); // comes with the key each time
-    EXPECT_FALSE(queue.isUrgent()) << "whoever flies would never see a slow picture";
+    EXPECT_FALSE(queue.isUrgent()) << "a flying user would never see a slow picture";
     for (const Kind kind : {Kind::Button, Kind::Scroll, Kind::Key}) {
         InputQueue more = queue;
         more.push(at(kind, 1.0f));
@@ -96,12 +96,12 @@ TEST(InputQueue, textBehindEnterReachesTheNextFrameAndTextBeforeItTheSame) {
     EXPECT_EQ(queue.takeFrame().front().code, 'b');
 }
 
-TEST(InputQueue, aModifierChangesInAFrameOnlyBeforeWhatHeedsIt) {
-    for (const InputEvent& heeds : {at(Kind::Key, 0.0f, kEnterKey), at(Kind::Button, 0.0f), at(Kind::Scroll, 0.0f),
+TEST(InputQueue, aModifierChangesInAFrameOnlyBeforeEventsThatReadIt) {
+    for (const InputEvent& event : {at(Kind::Key, 0.0f, kEnterKey), at(Kind::Button, 0.0f), at(Kind::Scroll, 0.0f),
                                     at(Kind::Character, 0.0f, 'a')}) {
-        InputQueue queue = queueOf({at(Kind::Key, 0.0f, kControlKey), heeds});
+        InputQueue queue = queueOf({at(Kind::Key, 0.0f, kControlKey), event});
         EXPECT_EQ(queue.takeFrame().size(), 2u);
-        queue.push(heeds);
+        queue.push(event);
         queue.push(at(Kind::Key, 0.0f, kControlKey, false));
         EXPECT_EQ(queue.takeFrame().size(), 1u) << "Ctrl is still held";
         EXPECT_EQ(queue.takeFrame().front().code, kControlKey);

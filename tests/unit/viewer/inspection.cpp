@@ -19,7 +19,7 @@ TEST(Inspection, aPlaceIsThePixelThatCoversIt) {
     EXPECT_EQ(pixelAt({1.0f, -0.1f}, {10, 20}), glm::ivec2(9, 0)) << "the nearest one";
 }
 
-TEST(Inspection, itsLinesTellBothSidesAndTheirDifference) {
+TEST(Inspection, itsLinesReportBothSidesAndTheirDifference) {
     Inspection inspection;
     inspection.pixel = {606, 303};
     inspection.sizePixels = {980, 778};
@@ -43,7 +43,7 @@ TEST(Inspection, itsLinesTellBothSidesAndTheirDifference) {
                             "depth 3.5 m", "shading normal 0.6 0 0.8", "face normal 0 0 1", "1 light reaches it"));
 }
 
-TEST(Inspection, itsLinesTellTheLightsThatEachSideVisitsAndOnceThoseThatReachThePlace) {
+TEST(Inspection, itsLinesReportTheLightsThatEachSideVisitsAndOnceThoseThatReachThePlace) {
     Inspection inspection;
     inspection.sides[0].emplace().visitedLights = 38;
     inspection.isSurfaceKnown = true;
@@ -69,7 +69,7 @@ TEST(Inspection, ofWhatTakesNoLightNoneAreVisitedAndOfWhatIsTransparentItIsNotKn
     InspectedSurface surface;
     EXPECT_EQ(visitsOf(surface, 38), 38u);
     EXPECT_EQ(visitsOf(surface, std::nullopt), std::nullopt);
-    surface.takesLight = false;
+    surface.isLit = false;
     EXPECT_EQ(visitsOf(surface, 38), 0u);
     surface.isTransparent = true;
     EXPECT_EQ(visitsOf(surface, 38), std::nullopt);
@@ -110,7 +110,7 @@ TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) 
         EXPECT_NEAR(front->depthMetres, 5.0, 1e-9);
         EXPECT_LT(glm::distance(front->faceNormalWS, normalWS), 1e-9);
         EXPECT_LT(glm::distance(front->shadingNormalWS, normalWS), 1e-9);
-        EXPECT_TRUE(front->takesLight);
+        EXPECT_TRUE(front->isLit);
         EXPECT_FALSE(front->isTransparent);
         EXPECT_EQ(front->reachingLights, 1u);
     }
@@ -120,7 +120,7 @@ TEST(Inspection, theSurfaceOfAPixelFacesTheViewerAndCountsTheLightsThatReachIt) 
     scene.materials[0].alphaMode = scenes::AlphaMode::Blend;
     const auto pane = at(perspective({0, 0, 5}, {0, 0, 0}), {50, 50});
     ASSERT_TRUE(pane);
-    EXPECT_FALSE(pane->takesLight);
+    EXPECT_FALSE(pane->isLit);
     EXPECT_TRUE(pane->isTransparent);
 }
 

@@ -72,7 +72,7 @@ TEST_F(Fonts, haveTheLettersThatOccur) {
     EXPECT_EQ(ImGui::GetIO().Fonts->Fonts[1]->FontSize, titlePixels(26.0f));
 }
 
-TEST_F(Fonts, areAskedForNamesOfTheSceneAndOfFiles) {
+TEST_F(Fonts, areRequestedNamesOfTheSceneAndOfFiles) {
     scenes::Scene scene = scenes::loadScene("room", {});
     scene.lights.at(0).name = "the light";
     scene.materials.at(0).name = "the material";

@@ -16,7 +16,7 @@ Look lookOf(Technique technique, std::optional<int> tilePixels = {}, int samples
     return look;
 }
 
-TEST(Look, aLookHoldsValuesThatItsTechniqueTakes) {
+TEST(Look, aLookHoldsValuesThatItsTechniqueSupports) {
     for (const engine::TechniqueInfo& from : engine::techniqueTable()) {
         for (const engine::TechniqueInfo& to : engine::techniqueTable()) {
             for (const frame::DebugViewInfo& view : frame::debugViewTable()) {
@@ -26,7 +26,7 @@ TEST(Look, aLookHoldsValuesThatItsTechniqueTakes) {
                 look.settings.lightOn = frame::LightingStage::Compute;
                 look.settings.view = view.view;
                 const Look result = possible(look);
-                EXPECT_NO_THROW(engine::requireTaken(result));
+                EXPECT_NO_THROW(engine::requireSupported(result));
                 EXPECT_TRUE(result.settings.samples == 1 || to.multisamples());
                 EXPECT_EQ(possible(result), result);
             }
@@ -34,7 +34,7 @@ TEST(Look, aLookHoldsValuesThatItsTechniqueTakes) {
     }
 }
 
-TEST(Look, valuesPutAsideReturnWithATechniqueThatTakesThem) {
+TEST(Look, valuesPutAsideReturnWithATechniqueThatSupportsThem) {
     Look look = lookOf(Technique::ForwardPlus, 32, 4);
     look.settings.culling.method = culling::Method::Tile25d;
     look.settings.culling.builder = culling::Builder::Compute;
@@ -44,7 +44,7 @@ TEST(Look, valuesPutAsideReturnWithATechniqueThatTakesThem) {
         now = possible(now);
         Look wanted = look;
         wanted.technique = info.technique;
-        EXPECT_EQ(asked(now), wanted) << info.name;
+        EXPECT_EQ(requested(now), wanted) << info.name;
     }
     now.technique = look.technique;
     EXPECT_EQ(possible(now), look);
@@ -56,7 +56,7 @@ TEST(Look, aChoiceReplacesAValuePutAside) {
     look.technique = Technique::ForwardPlus;
     look.settings.culling.tilePixels = 8;
     EXPECT_EQ(possible(look).settings.culling.tilePixels, 8);
-    EXPECT_EQ(asked(look).settings.culling.tilePixels, 8);
+    EXPECT_EQ(requested(look).settings.culling.tilePixels, 8);
 }
 
 TEST(Look, valuesPutAsideAreNoChoiceForTheNextScene) {
@@ -72,11 +72,11 @@ TEST(Look, valuesPutAsideAreNoChoiceForTheNextScene) {
 
 TEST(Look, choicesOfTheUserOverrideTheNextScenesOptions) {
     const Look before;
-    Look now = lookOf(Technique::ForwardPlus), wished = lookOf(Technique::Deferred);
+    Look now = lookOf(Technique::ForwardPlus), chosen = lookOf(Technique::Deferred);
     now.settings.exposureEV = 1.5f;
-    wished.settings.exposureEV = -3.0f;
-    wished.settings.toneMap = frame::ToneMap::Aces;
-    const Look result = rebased(now, before, wished);
+    chosen.settings.exposureEV = -3.0f;
+    chosen.settings.toneMap = frame::ToneMap::Aces;
+    const Look result = rebased(now, before, chosen);
     EXPECT_EQ(result.technique, Technique::ForwardPlus);
     EXPECT_EQ(result.settings.exposureEV, 1.5f);
     EXPECT_EQ(result.settings.toneMap, frame::ToneMap::Aces);
@@ -88,8 +88,8 @@ TEST(Look, everySettingThatNamesNothingOfAnotherSceneOutlivesIt) {
         Look before, now;
         before.technique = now.technique = Technique::ClusteredDeferred;
         setting.value.copy(now, tessera::test::changedIn(setting, scene));
-        const Look result = asked(rebased(now, before, before));
-        EXPECT_EQ(result, setting.isOfScene ? before : asked(possible(now))) << setting.name;
+        const Look result = requested(rebased(now, before, before));
+        EXPECT_EQ(result, setting.isOfScene ? before : requested(possible(now))) << setting.name;
     }
 }
 

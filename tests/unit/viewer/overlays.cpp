@@ -153,8 +153,8 @@ TEST_F(Overlays, theStatusLineSaysWhatGoesOnAndNothingOfWhatDoesNot) {
         void (*set)(Facts&);
     };
     const Case kCases[] = {
-        {"spreading", "spreading light: 1 of 3 objects, 45 %",
-         [](Facts& facts) { facts.spreading = {.objects = 3, .doneObjects = 1, .tiles = 200, .doneTiles = 90}; }},
+        {"diffusing", "diffusing light: 1 of 3 objects, 45 %",
+         [](Facts& facts) { facts.diffusion = {.objects = 3, .doneObjects = 1, .tiles = 200, .doneTiles = 90}; }},
         {"cancelled", "cancelled (Enter: draw on)", [](Facts& facts) { facts.isCancelled = true; }},
         {"frames/s", "24 frames/s", [](Facts& facts) { facts.picturesPerSecond = 24.4; }}};
     for (const Case& one : kCases) {

@@ -56,7 +56,7 @@ TEST_F(Panels, theVariantsOfModelsAreAListWhereThereAreAny) {
         State state = test::stateOf(std::move(scene), load);
         const std::string text = textOf([&] { scenePanel(state, {}); });
         EXPECT_THAT(text, HasSubstr("a note of the importer"));
-        EXPECT_FALSE(state.requests.variant) << "nobody chose one";
+        EXPECT_FALSE(state.requests.variant) << "none is chosen";
         return text;
     };
     EXPECT_THAT(textFor({}, {}), Not(HasSubstr("Variant")));
@@ -112,7 +112,7 @@ TEST_F(Panels, aLightThatFlickersHasRowsOfItsAmountAndSpeed) {
     }
 }
 
-TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
+TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueUsesIt) {
     for (const engine::TechniqueInfo& info : engine::techniqueTable()) {
         State state;
         state.looks[0].technique = info.technique;
@@ -126,7 +126,7 @@ TEST_F(Panels, everySettingOfAPanelHasARowWhereTheTechniqueHeedsIt) {
         for (const engine::Setting& setting : engine::settingTable())
             for (const auto& [panel, text] : texts)
                 EXPECT_EQ(text.find(fmt::format("\n{} ", setting.panelLabel())) != std::string::npos,
-                          setting.panel == panel && setting.isHeededBy(info.technique))
+                          setting.panel == panel && setting.isUsedBy(info.technique))
                     << setting.name << " with " << info.name << " in" << text;
     }
 }
@@ -352,7 +352,7 @@ TEST_F(Panels, aClickOnTheGreatestErrorInspectsItsPixel) {
     EXPECT_EQ(pixelAt(*state.pinnedPlace, {800, 400}), glm::ivec2(600, 300));
 }
 
-TEST(StatusLine, tellsLongTimesOfPicturesInSeconds) {
+TEST(StatusLine, reportsLongTimesOfPicturesInSeconds) {
     EXPECT_EQ(pictureTimeText(0.4), "0 ms");
     EXPECT_EQ(pictureTimeText(54.4), "54 ms");
     EXPECT_EQ(pictureTimeText(9999.4), "9999 ms");
@@ -360,7 +360,7 @@ TEST(StatusLine, tellsLongTimesOfPicturesInSeconds) {
     EXPECT_EQ(pictureTimeText(175557.2), "176 s");
 }
 
-TEST_F(Panels, theTimingsPanelTellsTheMedianAndTheLatest) {
+TEST_F(Panels, theTimingsPanelReportsTheMedianAndTheLatest) {
     State state;
     Facts facts;
     for (const double ms : {10.0, 20.0, 90.0}) {

@@ -79,11 +79,11 @@ TEST(Playback, anotherClipBeginsAtItsStart) {
 TEST(Playback, aSavedSceneBeginsAtTheTimeThatIsShownWhereSomethingMoves) {
     State state = clipShown();
     scenes::SceneOptions options;
-    options.wishes["layout"] = "packed";
+    options.requested["layout"] = "packed";
     const scenes::SceneOptions fromTheBeginning = options;
-    options.wishes["time"] = 0.75;
+    options.requested["time"] = 0.75;
     state.open->exchangeOptions(options);
-    options.wishes["time"] = timeOf(state) = 0.25;
+    options.requested["time"] = timeOf(state) = 0.25;
     EXPECT_EQ(optionsToSave(state), options);
     timeOf(state) = 0.0;
     EXPECT_EQ(optionsToSave(state), fromTheBeginning);

@@ -14,7 +14,7 @@ TEST(Gliding, aSlowPictureThatGoesOnInADragWaitsForTheNextMovement) {
         change(other);
         return other.from();
     };
-    EXPECT_EQ(changed([](Gliding& other) { other.isButtonHeld = false; }), 0.0) << "nobody drags";
+    EXPECT_EQ(changed([](Gliding& other) { other.isButtonHeld = false; }), 0.0) << "nothing is dragged";
     EXPECT_EQ(changed([](Gliding& other) { other.isMoving = false; }), 0.0) << "no picture follows by itself";
     EXPECT_EQ(changed([](Gliding& other) { other.ms = 9.5; }), 0.0) << "a picture is done before the movement is heard";
     EXPECT_DOUBLE_EQ(changed([](Gliding& other) { other.ms = 1000.0; }), 7.01) << "however slow it is";

@@ -197,16 +197,16 @@ TEST(RenderCommand, optionsOfTheSceneAreNotWrittenButDefaultsThatOverrideThemAre
     const std::string file =
         sceneFile(folder, R"({"technique": "forward", "layout": "packed", "camera": "plan of $HOME", "toneMap": "aces",
                               "exposureEV": 1.5, "size": [320, 200]})");
-    RenderRequest wished = requestOf(file);
-    wished.technique = engine::Technique::Forward;
-    wished.settings.layout = frame::layoutTable()[1].layout;
-    wished.settings.camera = 1;
-    wished.settings.toneMap = frame::ToneMap::Aces;
-    wished.settings.exposureEV = 1.5f;
-    wished.settings.sizePixels = {320, 200};
-    const std::string line = renderCommand(wished, scenes::loadScene(file), "a.exr");
+    RenderRequest requested = requestOf(file);
+    requested.technique = engine::Technique::Forward;
+    requested.settings.layout = frame::layoutTable()[1].layout;
+    requested.settings.camera = 1;
+    requested.settings.toneMap = frame::ToneMap::Aces;
+    requested.settings.exposureEV = 1.5f;
+    requested.settings.sizePixels = {320, 200};
+    const std::string line = renderCommand(requested, scenes::loadScene(file), "a.exr");
     EXPECT_EQ(line.find("--"), std::string::npos) << line;
-    expectSame(wished);
+    expectSame(requested);
     expectSame(requestOf(file));
 }
 

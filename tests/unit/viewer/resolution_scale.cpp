@@ -72,7 +72,7 @@ TEST(ResolutionScale, aLargerPictureThatTakesLessPutsOutWhatIsKnownOfSmallerOnes
     EXPECT_LE(lastMs(scale, 155.0, 5.0, 1), kTargetMs);
 }
 
-TEST(ResolutionScale, itTellsWhatAWholePictureWouldTake) {
+TEST(ResolutionScale, itReportsWhatAWholePictureWouldTake) {
     ResolutionScale scale(kTargetMs);
     EXPECT_EQ(scale.predictedMs(1.0), 0.0) << "nothing is known";
     scale.drew(0.25, 100.0);

@@ -29,7 +29,7 @@ protected:
         const scenes::LoadOptions load;
         scenes::Scene scene = scenes::loadScene(file, load);
         scenes::SceneOrigin origin = scenes::originOf(file, load, scene);
-        for (Look& look : state_.looks) engine::takeWishes(scene, file, look);
+        for (Look& look : state_.looks) engine::applyRequestedOptions(scene, file, look);
         state_.open = std::make_unique<OpenScene>(file, load, std::move(scene), std::move(origin), nullptr,
                                                   environmentSeenBy(state_.looks[0]));
     }
@@ -43,7 +43,7 @@ protected:
     static scenes::EnvironmentView seenOf(const std::string& file) {
         const scenes::Scene scene = scenes::loadScene(file);
         Look look;
-        engine::takeWishes(scene, file, look);
+        engine::applyRequestedOptions(scene, file, look);
         return scenes::asSeen(scenes::ownViewOf(scene.environment.value()), environmentSeenBy(look));
     }
     /// A choice of another map, with the numbers of the scene's environment.
@@ -64,7 +64,7 @@ protected:
 };
 
 TEST_F(SavedEnvironment, liesAndShinesAsItWasSeen) {
-    EXPECT_EQ(seen(), (scenes::EnvironmentView{35.0f, 1.5f})) << "as the file asks for";
+    EXPECT_EQ(seen(), (scenes::EnvironmentView{35.0f, 1.5f})) << "as the file requests";
     view(kChosenView);
     const scenes::EnvironmentView before = seen();
     EXPECT_EQ(before, (scenes::EnvironmentView{55.0f, 1.0f}));
@@ -83,7 +83,7 @@ TEST_F(SavedEnvironment, liesAndShinesAsItWasSeen) {
 
 TEST_F(SavedEnvironment, oneDragIsOneStepThatIsUndoneToTheExactNumbers) {
     constexpr scenes::EnvironmentView kFirst{25.0f, 3.0f};
-    EXPECT_EQ(state_.open->environmentView(), kFirst) << "as the file asks for";
+    EXPECT_EQ(state_.open->environmentView(), kFirst) << "as the file requests";
     EXPECT_FALSE(state_.open->isEdited());
     view(kFirst);
     EXPECT_EQ(state_.open->history().undoable(), 0u) << "it has these numbers";
@@ -197,8 +197,8 @@ TEST_F(SavedEnvironment, withoutOneWhatTheLooksSayStaysTheirs) {
     const scenes::Scene scene = scenes::loadScene(file);
     EXPECT_FALSE(scene.environment);
     Look look;
-    engine::takeWishes(scene, file, look);
-    EXPECT_EQ(environmentSeenBy(look), (scenes::EnvironmentView{25.0f, 3.0f})) << "as the file asks for";
+    engine::applyRequestedOptions(scene, file, look);
+    EXPECT_EQ(environmentSeenBy(look), (scenes::EnvironmentView{25.0f, 3.0f})) << "as the file requests";
     EXPECT_EQ(environmentSeenBy(state_.looks[0]), kChosenView);
 }
 

@@ -79,7 +79,7 @@ double meanOverFloor(const std::vector<scenes::Light>& lights, Value value) {
     return sum / points;
 }
 
-TEST(Scatter, aboutAsManyLightsAsAskedReachAPointWhateverTheirNumber) {
+TEST(Scatter, aboutAsManyLightsAsRequestedReachAPointWhateverTheirNumber) {
     scenes::Scene scene = floorScene();
     scenes::Node& above = scene.nodes.emplace_back(scene.nodes.front());
     above.parentFromNode = glm::dmat4(glm::dmat3(1e-3, 0, 0, 0, -1e-3, 0, 0, 0, -1e-3)); // space, hardly a surface

@@ -309,7 +309,7 @@ TEST(SceneEdits, addingAndDuplicatingAreUndoneAndNamed) {
     EXPECT_FALSE(state.open->isEdited());
 }
 
-TEST(SceneEdits, revertGoesBackOrForthToTheSavedSceneAndElseAsksForTheFile) {
+TEST(SceneEdits, revertGoesBackOrForthToTheSavedSceneAndElseRequestsTheFile) {
     State state = threeLights();
     const auto change = [&state](float intensity) { test::setIntensity(*state.open, intensity); };
     change(0.25f);

@@ -27,7 +27,7 @@ protected:
         options_.lookOf = [this](const scenes::Scene& scene, const std::string& source, bool first) {
             firsts_.push_back(first);
             FirstLook look;
-            engine::takeWishes(scene, source, look.look);
+            engine::applyRequestedOptions(scene, source, look.look);
             if (!first) return look;
             if (saidCamera_ >= int(scene.cameras.size())) throw InputError("no such camera");
             look.look.settings.camera = saidCamera_;
@@ -182,7 +182,7 @@ TEST_F(SceneSwitchTest, aTurnOfTheEnvironmentThatWasSavedIsNeitherMadeTwiceNorOf
     saveOpenScene(state_, file);
     EXPECT_EQ(seen(), 40.0f);
     ASSERT_TRUE(open(turned("b.json", 10)));
-    EXPECT_EQ(degrees(), 10.0f) << "as it asks for itself";
+    EXPECT_EQ(degrees(), 10.0f) << "as it requests itself";
     ASSERT_TRUE(open(file));
     EXPECT_EQ(seen(), 40.0f);
     EXPECT_EQ(degrees(), 0.0f);
@@ -302,7 +302,7 @@ TEST_F(SceneSwitchTest, aSuppliedCameraFitsTheWindowAndItsPlaceIsSaidForCommands
     EXPECT_EQ(shown(), moved) << "as it was left, whatever the window is now";
 }
 
-TEST_F(SceneSwitchTest, theDefaultCameraIsThatOfTheSceneItWasAskedForAndCommandsOfAnySizeRepeatItsPlace) {
+TEST_F(SceneSwitchTest, theDefaultCameraIsThatOfTheSceneItWasRequestedAndCommandsOfAnySizeRepeatItsPlace) {
     const std::string file = sceneFile("a.json");
     scenes::LoadOptions load;
     load.defaultCamera = true;
@@ -356,10 +356,10 @@ TEST_F(SceneSwitchTest, aCommandThatPlacesTheCameraOfABuiltInSceneIsFollowed) {
 
 TEST_F(SceneSwitchTest, settingsThatCannotBeSavedGiveAWarning) {
     options_.preferencesFile = folder_.write("file", "") / "viewer.json";
-    std::string told;
-    options_.warn = [&told](const std::string& text) { told = text; };
+    std::string warning;
+    options_.warn = [&warning](const std::string& text) { warning = text; };
     switch_.remember({800, 600});
-    EXPECT_THAT(told, HasSubstr("cannot make the folder"));
+    EXPECT_THAT(warning, HasSubstr("cannot make the folder"));
 }
 
 } // namespace

@@ -31,7 +31,7 @@ engine::DrawnShadows mapsOf(std::size_t lights) {
     return shadows;
 }
 
-TEST_F(ShadowsPanel, theShadowsPanelTellsWhatHoldsTheShadowsOfWhichLight) {
+TEST_F(ShadowsPanel, theShadowsPanelReportsWhatHoldsTheShadowsOfWhichLight) {
     State state = test::unusualScene();
     Facts facts;
     const auto text = [&] { return textOf([&] { shadowsPanel(state, facts); }); };
@@ -51,7 +51,7 @@ TEST_F(ShadowsPanel, theShadowsPanelTellsWhatHoldsTheShadowsOfWhichLight) {
     EXPECT_THAT(text(), Not(HasSubstr("no room")));
 }
 
-TEST_F(ShadowsPanel, theShadowsPanelTakesNoValueThatTheFilterDoesNotHeed) {
+TEST_F(ShadowsPanel, theShadowsPanelTakesNoValueThatTheFilterDoesNotUse) {
     for (const frame::ShadowFilterInfo& filter : frame::shadowFilterTable()) {
         State state;
         state.looks[0].settings.shadowFilter = filter.filter;
@@ -65,7 +65,7 @@ TEST_F(ShadowsPanel, theShadowsPanelTakesNoValueThatTheFilterDoesNotHeed) {
     }
 }
 
-TEST_F(ShadowsPanel, theShadowsPanelSaysWhereNoLightHasTheSizeThatItsFilterHeeds) {
+TEST_F(ShadowsPanel, theShadowsPanelSaysWhereNoLightHasTheSizeThatItsFilterUses) {
     State state = test::unusualScene();
     Facts facts;
     facts.shadows[0] = mapsOf(3);

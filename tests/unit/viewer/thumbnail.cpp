@@ -46,7 +46,7 @@ TEST_F(TextureRows, nameEveryTextureOfTheMaterialAndItsSize) {
     State state = test::stateOf(std::move(scene));
     state.selectedMaterial = 0;
     const auto text = [&] { return textOf([&] { materialsPanel(state); }); };
-    for (const char* told : {"base color", "halves.png", "8 x 4"}) EXPECT_THAT(text(), testing::HasSubstr(told));
+    for (const char* word : {"base color", "halves.png", "8 x 4"}) EXPECT_THAT(text(), testing::HasSubstr(word));
     state.selectedMaterial = 1;
     EXPECT_THAT(text(), testing::Not(testing::HasSubstr("halves.png")));
 }

@@ -147,30 +147,30 @@ public:
         json["textures"] = Json::parse(R"([{"source": 0}])");
     }
 
-    Scene import() const { return underLedger(importGltf, folder.write("model.gltf", json.dump()), {}, wishes); }
+    Scene import() const { return underLedger(importGltf, folder.write("model.gltf", json.dump()), {}, importOptions); }
 
     /// Returns the error of a strict import, or "" without one.
     std::string error(std::optional<std::uint64_t> limitBytes = {}) const {
-        return errorOf(folder.write("model.gltf", json.dump()), wishes, limitBytes);
+        return errorOf(folder.write("model.gltf", json.dump()), importOptions, limitBytes);
     }
-    static std::string errorOf(const std::filesystem::path& file, ImportWishes asked = {},
+    static std::string errorOf(const std::filesystem::path& file, ImportOptions requested = {},
                                std::optional<std::uint64_t> limitBytes = {}) {
-        asked.isStrict = true;
+        requested.isStrict = true;
         try {
-            underLedger(importGltf, file, limitBytes, asked);
+            underLedger(importGltf, file, limitBytes, requested);
         } catch (const InputError& error) {
-            expectTold(error.what(), file, asked, limitBytes);
+            expectReported(error.what(), file, requested, limitBytes);
             return error.what();
         }
         return "";
     }
 
     /// Expects a lenient import to warn of the flaw or to fail with it.
-    static void expectTold(const std::string& flaw, const std::filesystem::path& file, ImportWishes asked,
-                           std::optional<std::uint64_t> limitBytes) {
-        asked.isStrict = false;
+    static void expectReported(const std::string& flaw, const std::filesystem::path& file, ImportOptions requested,
+                               std::optional<std::uint64_t> limitBytes) {
+        requested.isStrict = false;
         try {
-            const Scene scene = underLedger(importGltf, file, limitBytes, asked);
+            const Scene scene = underLedger(importGltf, file, limitBytes, requested);
             EXPECT_THAT(scene.warnings, testing::Contains(testing::StartsWith(flaw)));
         } catch (const InputError& error) {
             EXPECT_EQ(error.what(), flaw);
@@ -180,7 +180,7 @@ public:
     void merge(const char* patch) { json.merge_patch(Json::parse(patch)); }
 
     Json json;
-    ImportWishes wishes;
+    ImportOptions importOptions;
     Folder folder;
 };
 

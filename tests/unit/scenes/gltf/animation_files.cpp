@@ -8,7 +8,7 @@
 namespace tessera::scenes::gltf::test {
 namespace {
 
-TEST(GltfAnimation, aLoadedSceneStandsAtTimeZeroOfTheClipThatIsAskedFor) {
+TEST(GltfAnimation, aLoadedSceneStandsAtTimeZeroOfTheClipThatIsRequested) {
     Builder builder = movingTriangle();
     addClip(builder, {0}, builder.add("VEC3", {0, 4, 0}), {{"node", 0}, {"path", "translation"}}, "STEP", "up");
     const std::string file = builder.folder.file("clips.gltf", builder.json.dump());

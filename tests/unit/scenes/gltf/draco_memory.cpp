@@ -21,7 +21,7 @@ TEST(GltfDraco, claimsOfAStreamAreRefusedBeforeMemoryIsReserved) {
     EXPECT_THAT(faces.error(), HasSubstr("holds 1073741824 triangles, but accessor 1 says 3 indices")) << faces.error();
     // No accessor limits the triangles of a primitive without indices.
     faces.primitive().erase("indices");
-    EXPECT_THAT(refusal(faces), HasSubstr("/KHR_draco_mesh_compression: asks for 240.0 GiB")) << refusal(faces);
+    EXPECT_THAT(refusal(faces), HasSubstr("/KHR_draco_mesh_compression: needs 240.0 GiB")) << refusal(faces);
 
     Builder vertices;
     Json& stream = addDraco(vertices, dracoTriangle({.faces = 20000, .vertices = 60000, .components = 255}));
@@ -29,7 +29,7 @@ TEST(GltfDraco, claimsOfAStreamAreRefusedBeforeMemoryIsReserved) {
         << vertices.error();
     // Nor does one limit an attribute that is not named.
     stream["attributes"] = Json::object();
-    EXPECT_THAT(refusal(vertices), HasSubstr("/KHR_draco_mesh_compression: asks for ")) << refusal(vertices);
+    EXPECT_THAT(refusal(vertices), HasSubstr("/KHR_draco_mesh_compression: needs ")) << refusal(vertices);
 }
 
 TEST(GltfDraco, whatADecoderTookIsGivenBack) {

@@ -185,7 +185,7 @@ TEST(GltfEnvironment, aFaceThatCannotBeReadOrIsNotSquareIsACheckerboardUnlessLoa
         EXPECT_EQ(map.width, 4 * 64) << "that of the checkerboard, which is the largest";
         EXPECT_NE(texelAt(map, 0, 0), glm::dvec3(0.25)) << "above";
         EXPECT_EQ(texelAt(map, 0, map.height - 1), glm::dvec3(0.25)) << "below";
-        builder.wishes.isStrict = true;
+        builder.importOptions.isStrict = true;
         EXPECT_THAT(builder.error(), HasSubstr(flaw));
     }
 }

@@ -132,7 +132,7 @@ TEST(Image, paletteIndicesBeyondThePaletteAreNotReadPastIt) {
     EXPECT_EQ(texel[3], 255);
 }
 
-TEST(Image, readersOfOtherFormatsAreNotAsked) {
+TEST(Image, readersOfOtherFormatsAreNotTried) {
     const Folder folder;
     // "null" makes images from nothing, "mp4" opens films, and the readers of IFF and DPX crash on broken files.
     for (const char* extension : {"null", "mp4", "raw", "vdb", "iff", "dpx", "cin", "psd", "jp2", "ptx", "txt"}) {

@@ -62,7 +62,7 @@ TEST(GltfLights, spotConesAreImportedExactly) {
           {R"({"innerConeAngle": 0.5, "outerConeAngle": 0.5})", "innerConeRadians 0.5, outerConeRadians 0.5"},
           {"{}", "innerConeRadians 0"}}) {
         Builder builder = withLight((std::string(R"({"type": "spot", "spot": )") + spot + "}").c_str());
-        builder.wishes.isStrict = true;
+        builder.importOptions.isStrict = true;
         const Scene scene = builder.import();
         EXPECT_EQ(scene.lights.at(0).type, LightType::Spot);
         expectMembers(scene.lights[0], members);
@@ -148,17 +148,17 @@ TEST(GltfLights, thoseThatBlenderExportedAreReadInWatts) {
         const Scene scene = builder.import();
         EXPECT_FLOAT_EQ(scene.lights.at(0).intensity, one.watts);
         EXPECT_EQ(scene.notes.size(), one.watts == 10.0f ? 1u : 0u) << "reports what it divides";
-        builder.wishes.lightUnits = LightUnits::Watt;
+        builder.importOptions.lightUnits = LightUnits::Watt;
         EXPECT_EQ(builder.import().lights.at(0).intensity, 6830.0f);
         EXPECT_TRUE(builder.import().notes.empty());
-        builder.wishes.lightUnits = LightUnits::Lumen;
+        builder.importOptions.lightUnits = LightUnits::Lumen;
         EXPECT_FLOAT_EQ(builder.import().lights.at(0).intensity, 10.0f);
     }
 }
 
 TEST(GltfLights, whatAClipMakesOfTheIntensityOfOneInLumensIsInWattsToo) {
     Builder builder = withLight(R"({"type": "point", "intensity": 6830})");
-    builder.wishes.lightUnits = LightUnits::Lumen;
+    builder.importOptions.lightUnits = LightUnits::Lumen;
     const int times = builder.add("SCALAR", {0, 1}), values = builder.add("SCALAR", {683, 1366});
     Json& animation = builder.json["animations"][0];
     animation["samplers"][0] = {{"input", times}, {"output", values}};

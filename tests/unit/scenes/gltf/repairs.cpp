@@ -158,7 +158,7 @@ TEST(GltfRepairs, aFlawedVariantMovesNoOther) {
         Json::parse(R"({"KHR_materials_variants": {"mappings": [{"material": 1, "variants": [1]}]}})");
     builder.json["extensions"] =
         Json::parse(R"({"KHR_materials_variants": {"variants": [{"name": 5}, {"name": "b"}]}})");
-    builder.wishes.variant = "b";
+    builder.importOptions.variant = "b";
     const Scene scene = builder.import();
     EXPECT_EQ(paintOf(scene).name, "b");
     EXPECT_THAT(scene.variants, ElementsAre("b"));

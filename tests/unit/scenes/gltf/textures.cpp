@@ -160,7 +160,7 @@ TEST(GltfTextures, noStandInIsDrawnForWantOfMemory) {
 
 TEST(GltfTextures, missingOrBrokenImageIsRefusedByNameWhereTheLoadIsStrict) {
     Builder builder = textured();
-    builder.wishes.isStrict = true;
+    builder.importOptions.isStrict = true;
     for (const auto& [image, error] :
          {std::pair(R"({"uri": "gone.png"})", "gone.png: there is no such file"),
           {R"({"uri": "gone.png"})", "model.gltf: /images/0: "},

@@ -81,7 +81,7 @@ TEST(GltfThinSolidMaterials, variantsAreUnlitToo) {
     builder.primitive()["material"] = 0;
     builder.primitive()["extensions"]["KHR_materials_variants"]["mappings"] =
         Json::parse(R"([{"material": 1, "variants": [0]}])");
-    builder.wishes.variant = "red";
+    builder.importOptions.variant = "red";
     EXPECT_EQ(materialOf(builder.import()).name, "ruby, unlit");
 }
 

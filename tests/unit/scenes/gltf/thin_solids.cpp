@@ -303,9 +303,9 @@ TEST(GltfThinSolids, theirSolidsAreChargedBeforeTheyAreMade) {
     };
     for (const int mode : {0, 2, 3}) {
         EXPECT_EQ(errorOf(mode, 2000), "") << mode;
-        EXPECT_THAT(errorOf(mode, 20000), HasSubstr("model.gltf: /meshes/0/primitives/0: asks for ")) << mode;
+        EXPECT_THAT(errorOf(mode, 20000), HasSubstr("model.gltf: /meshes/0/primitives/0: needs ")) << mode;
     }
-    EXPECT_THAT(errorOf(1, 40000), HasSubstr("model.gltf: /meshes/0/primitives/0: asks for "));
+    EXPECT_THAT(errorOf(1, 40000), HasSubstr("model.gltf: /meshes/0/primitives/0: needs "));
 }
 
 } // namespace

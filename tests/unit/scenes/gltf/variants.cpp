@@ -35,12 +35,12 @@ TEST(GltfVariants, aVariantBindsItsMaterialsAndKeepsTheNumbersOfOthers) {
     EXPECT_EQ(plain.materials.size(), 1u) << "what is not shown is not read";
     EXPECT_TRUE(plain.warnings.empty());
     EXPECT_EQ(plain.notes, (Names{"shows its materials as they are without a variant; its variants are red, blue"}));
-    builder.wishes.variant = "blue";
+    builder.importOptions.variant = "blue";
     const Scene blue = builder.import();
     EXPECT_EQ(worn(blue), (Names{"sky", "paint"}));
     EXPECT_EQ(blue.materials.at(0).name, "paint");
     EXPECT_EQ(blue.notes, (Names{"shows the variant 'blue'; its variants are red, blue"}));
-    builder.wishes.variant = "green"; // a variant of another model in the scene
+    builder.importOptions.variant = "green"; // a variant of another model in the scene
     EXPECT_EQ(worn(builder.import()), (Names{"paint", "paint"}));
 }
 
@@ -49,7 +49,7 @@ TEST(GltfVariants, skinnedAndMorphedMeshesShowThemToo) {
     builder.primitive()["targets"] = Json::parse(R"([{"POSITION": 0}])");
     builder.json["meshes"][0]["primitives"].erase(1);
     builder.json["meshes"][0]["weights"] = {0.5};
-    builder.wishes.variant = "red";
+    builder.importOptions.variant = "red";
     EXPECT_EQ(worn(builder.import()), (std::vector<std::string>{"ruby"}));
 }
 

@@ -69,7 +69,7 @@ TEST_F(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
               "/along: is (0, 0, -2.5), which runs along the light's direction; give a vector across it");
     EXPECT_EQ(errorBeyondSchemaOf(placed(polygon + R"(, "corners": [[0, 0], [1, 1], [1, 0], [0, 1]])")),
               "/corners: let the edge from number 0 to 1 meet that from number 2 to 3; move one of them");
-    for (const auto& [light, told] :
+    for (const auto& [light, refusal] :
          {std::pair<std::string, std::string>(panel + R"(, "along": [0, 0, 0])",
                                               "/along: has no length; give a direction"),
           {panel + R"(, "width": -1)", "/width: is -1; at least 0 is needed"},
@@ -83,7 +83,7 @@ TEST_F(SceneJsonAreaLights, whatAShapeCannotHaveIsRefusedByKeyAndValue) {
           {polygon, ": lacks the key 'corners'; add it"},
           {R"("type": "sphere")", ": lacks the key 'radius'; add it"},
           {R"("type": "tube", "radius": 1)", ": lacks the key 'direction'; add it"}})
-        EXPECT_EQ(error(light), told);
+        EXPECT_EQ(error(light), refusal);
     for (const char* corners : {"[[0, 0], [1, 1]]", "[[0, 0], [1, 0], [1]]", "[[0, 0], [1, 0], [1, 1000001]]"})
         EXPECT_NE(error(polygon + R"(, "corners": )" + corners), "") << corners;
     EXPECT_THAT(error(R"("type": "sphere", "radius": 1, "twoSided": true)"),
@@ -125,7 +125,7 @@ TEST_F(SceneJsonAreaLights, anIncludedRectangleIsTurnedWithItsWidth) {
     EXPECT_EQ(light.widthMetres, 2.0f) << "scales change directions alone";
 }
 
-TEST_F(SceneJsonAreaLights, thoseThatAreOnAndHaveNoAreaAreToldInOneLine) {
+TEST_F(SceneJsonAreaLights, thoseThatAreOnAndHaveNoAreaAreReportedInOneLine) {
     const auto warningsOf = [&](const std::string& lights) {
         return loadScene(folder.file("areas.json", R"({"tessera": 1, "lights": [)" + lights + "]}")).warnings;
     };

@@ -22,7 +22,7 @@ TEST_F(SceneJsonBase, aBaseAloneIsExactlyTheSceneItself) {
     EXPECT_EQ(folder.import(basedOnLamps("")).name, "scene") << "named after the file";
 }
 
-TEST_F(SceneJsonBase, aBuiltinBaseMakesAsManyLightsAsAsked) {
+TEST_F(SceneJsonBase, aBuiltinBaseMakesAsManyLightsAsRequested) {
     expectSameScene(
         folder.import(R"({"tessera": 1, "name": "lattice", "base": {"file": "builtin:lattice", "lights": 7}})"),
         loadScene("lattice", loading(&LoadOptions::lights, 7)));
@@ -47,9 +47,9 @@ TEST_F(SceneJsonBase, lightsCamerasBackgroundAndOptionsReplaceThoseOfTheBase) {
     ASSERT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.cameras[0].name, "a");
     EXPECT_EQ(scene.background, glm::vec3(1.0f, 2.0f, 3.0f));
-    EXPECT_EQ(scene.options.wishes.at("layout"), Wish("packed"));
+    EXPECT_EQ(scene.options.requested.at("layout"), OptionValue("packed"));
     EXPECT_EQ(scene.options.defaultLight, false);
-    EXPECT_FALSE(scene.options.wishes.contains("technique")) << "of the base";
+    EXPECT_FALSE(scene.options.requested.contains("technique")) << "of the base";
 }
 
 TEST_F(SceneJsonBase, aMaterialThatReplacesTakesThePlaceOfTheBases) {
@@ -67,7 +67,7 @@ TEST_F(SceneJsonBase, aMaterialThatReplacesTakesThePlaceOfTheBases) {
     EXPECT_TRUE(scene.warnings.empty());
 }
 
-TEST_F(SceneJsonBase, aVariantOfABaseOrAnIncludeIsShownUnlessAnotherIsAskedFor) {
+TEST_F(SceneJsonBase, aVariantOfABaseOrAnIncludeIsShownUnlessAnotherIsRequested) {
     folder.write("car.gltf", kCar);
     const auto worn = [](const Scene& scene) {
         std::string names;
@@ -87,7 +87,7 @@ TEST_F(SceneJsonBase, aVariantOfABaseOrAnIncludeIsShownUnlessAnotherIsAskedFor) 
               "/base/variant: there is no variant 'rde'; did you mean 'red'?");
 }
 
-TEST_F(SceneJsonBase, aSceneThatWishesNoDefaultLightNeverGetsOne) {
+TEST_F(SceneJsonBase, aSceneThatRequestsNoDefaultLightNeverGetsOne) {
     const auto isLit = [&](const std::string& members) {
         const std::string text = R"({"tessera": 1, "include": [{"file": "models/bust.obj"}])" + members + "}";
         return loadScene(folder.file("dark.json", text)).environment.has_value();
@@ -119,7 +119,7 @@ TEST_F(SceneJsonBase, mistakesAreNamedWithTheirPlace) {
     for (const auto& [text, error] :
          {std::pair<std::string, const char*>(
               based(R"("models/bust.obj", "lights": 3)"),
-              "/base/lights: only a built-in scene makes as many lights as it is asked for; remove it"),
+              "/base/lights: only a built-in scene makes a requested number of lights; remove it"),
           {based(R"("models/bust.obj", "assets": false)"),
            "/base/assets: only a built-in scene chooses between models of TESSERA_ASSETS and its own; remove it"},
           {based(R"("builtin:hal")"), "/base/file: there is no built-in scene 'hal'; did you mean 'hall'?"},

@@ -92,9 +92,9 @@ TEST_F(SceneJsonOptions, optionsAndBackgroundAreKept) {
                     "size": [640, 361]}})");
     EXPECT_EQ(scene.background, glm::vec3(0.5f, 1, 2));
     EXPECT_EQ(scene.options.camera, "front");
-    const std::map<std::string, Wish, std::less<>> wishes{
+    const std::map<std::string, OptionValue, std::less<>> requested{
         {"technique", "deferred"}, {"prune", false}, {"exposureEV", -1.5}, {"size", std::vector<double>{640, 361}}};
-    EXPECT_EQ(scene.options.wishes, wishes);
+    EXPECT_EQ(scene.options.requested, requested);
     EXPECT_EQ(folder.import(R"({"tessera": 1})").options, SceneOptions());
 }
 

@@ -23,7 +23,7 @@ protected:
     std::string errorWith(const std::string& more) const { return folder.errorBeyondSchemaOfMembers(members(more)); }
 };
 
-TEST_F(HookFiles, aHookKnowsItsFileMaterialsAndParameters) {
+TEST_F(HookFiles, aHookHasItsFileMaterialsAndParameters) {
     const Scene scene = folder.importMembers(
         members(R"(, "materials": ["b"], "parameters": [{"name": "speed", "value": 2, "least": -1, "most": 4},
                                                         {"name": "share", "value": 0.5}])"));

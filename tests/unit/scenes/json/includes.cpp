@@ -106,7 +106,7 @@ TEST_F(SceneJsonInclude, animationsMoveAlong) {
 TEST_F(SceneJsonInclude, backgroundAndOptionsOfAnIncludeNeverCount) {
     const Scene scene = folder.import(including(R"({"file": "parts/lamps.json"})"));
     EXPECT_EQ(scene.background, glm::vec3(0));
-    EXPECT_TRUE(scene.options.wishes.empty());
+    EXPECT_TRUE(scene.options.requested.empty());
 }
 
 TEST_F(SceneJsonInclude, theAssetsFolderIsTakenFromTheEnvironment) {

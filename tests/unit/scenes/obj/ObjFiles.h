@@ -17,15 +17,16 @@ constexpr std::string_view kOneTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 /// Tests of OBJ files, with a folder for them.
 class ObjFiles : public testing::Test {
 protected:
-    Scene importText(std::string_view text, const ImportWishes& wishes = {}) const {
-        Scene scene = underLedger(importObj, folder.write("model.obj", text), {}, wishes);
+    Scene importText(std::string_view text, const ImportOptions& importOptions = {}) const {
+        Scene scene = underLedger(importObj, folder.write("model.obj", text), {}, importOptions);
         checkScene(scene);
         return scene;
     }
     /// A scene of one triangle whose material "paint" has the given MTL statements.
-    Scene painted(const std::string& mtl, const ImportWishes& wishes = {}) const {
+    Scene painted(const std::string& mtl, const ImportOptions& importOptions = {}) const {
         folder.write("paint.mtl", "newmtl paint\n" + mtl);
-        return importText("mtllib paint.mtl\n" + std::string(kThreeVertices) + "usemtl paint\nf 1 2 3\n", wishes);
+        return importText("mtllib paint.mtl\n" + std::string(kThreeVertices) + "usemtl paint\nf 1 2 3\n",
+                          importOptions);
     }
     Material paint(const std::string& mtl) const { return painted(mtl).materials.at(0); }
 

@@ -7,14 +7,15 @@ using namespace test;
 
 class ObjVertexColours : public ObjFiles {
 protected:
-    Scene coloured(const char* first, const char* second, const char* third, const ImportWishes& wishes = {}) const {
+    Scene coloured(const char* first, const char* second, const char* third,
+                   const ImportOptions& importOptions = {}) const {
         return importText(std::string("v 0 0 0") + first + "\nv 1 0 0" + second + "\nv 0 1 0" + third + "\nf 1 2 3\n",
-                          wishes);
+                          importOptions);
     }
     static glm::vec4 firstColour(const Scene& scene) { return scene.meshes.at(0).colors.at(0); }
 };
 
-TEST_F(ObjVertexColours, areSrgbUnlessLinearOnesAreAskedFor) {
+TEST_F(ObjVertexColours, areSrgbUnlessLinearOnesAreRequested) {
     constexpr const char* kHalf = " 0.73535698 1 0"; // 0.5 in linear light, by IEC 61966-2-1
     const Scene scene = coloured(kHalf, kHalf, kHalf);
     EXPECT_NEAR(firstColour(scene).x, 0.5f, 1e-6f); // rounding of the text
@@ -22,7 +23,7 @@ TEST_F(ObjVertexColours, areSrgbUnlessLinearOnesAreAskedFor) {
     EXPECT_EQ(firstColour(scene).z, 0.0f);
     EXPECT_EQ(firstColour(scene).w, 1.0f);
     EXPECT_THAT(scene.warnings, IsEmpty());
-    ImportWishes linear;
+    ImportOptions linear;
     linear.objColours = ObjColours::Linear;
     EXPECT_EQ(firstColour(coloured(kHalf, kHalf, kHalf, linear)).x, 0.73535698f);
 }

@@ -60,10 +60,10 @@ void edit(Scene& scene) {
     plan.farMetres = 100.0;
     scene.cameras.push_back(plan); // of the same name
     scene.background = edits.color();
-    scene.options.wishes["exposureEV"] = 0.1;
-    scene.options.wishes["toneMap"] = "agx";
-    scene.options.wishes["prune"] = false;
-    scene.options.wishes["size"] = std::vector<double>{640, 360};
+    scene.options.requested["exposureEV"] = 0.1;
+    scene.options.requested["toneMap"] = "agx";
+    scene.options.requested["prune"] = false;
+    scene.options.requested["size"] = std::vector<double>{640, 360};
     scene.name = "edited";
 }
 

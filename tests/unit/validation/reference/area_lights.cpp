@@ -350,7 +350,7 @@ SurfacePoint randomSurface(test::Random& random, MaterialModel model) {
 
 TEST(ReferenceAreaLights, everyModelAndTypeAgreesWithMonteCarloIntegration) {
     test::Random random(11);
-    double squares = 0.0, squaresTold = 0.0;
+    double squares = 0.0, squaresReported = 0.0;
     int seen = 0;
     for (int i = 0; i < 240; ++i) {
         const SurfacePoint point = randomSurface(random, MaterialModel(1 + i % 5));
@@ -384,13 +384,13 @@ TEST(ReferenceAreaLights, everyModelAndTypeAgreesWithMonteCarloIntegration) {
         const double error = (found.light.g - fine.light.g) / fine.light.g;
         ASSERT_LE(std::abs(error), 2e-4) << i;
         squares += error * error;
-        squaresTold += found.variance.g / (fine.light.g * fine.light.g);
+        squaresReported += found.variance.g / (fine.light.g * fine.light.g);
         ++seen;
     }
     EXPECT_GT(seen, 25);
     // A tenth of the limit for images of rough metals, relMse 1e-6, and no more than the reported variance.
     EXPECT_LE(squares / seen, 1e-7);
-    EXPECT_LE(squares, squaresTold);
+    EXPECT_LE(squares, squaresReported);
 }
 
 } // namespace

@@ -21,7 +21,7 @@ Rendered strip(const scenes::Scene& scene, const glm::dvec3& middleWS, glm::ivec
     Settings settings;
     settings.sizePixels = sizePixels;
     settings.diffusionPoints = 1024;
-    settings.leeway = false;
+    settings.findsAlternatives = false;
     settings.camera = scene.cameras[0];
     settings.camera.projection = scenes::Projection::Orthographic;
     settings.camera.worldFromCamera = glm::dmat4({1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, -1.0, 0.0}, {0.0, 1.0, 0.0, 0.0},
@@ -54,13 +54,13 @@ TEST(ReferenceDiffusion, aStepOfLightIsASumOfErrorFunctions) {
     const Rendered rendered = strip(scene, {builtin::kTruthEdgeX, 0.0, 0.0}, {80, 16}, kWidth);
     for (int channel = 0; channel < 3; ++channel) {
         const double error =
-            errorOf(rendered, channel, kWidth, [](double beyond) { return builtin::spreadStep(beyond); });
+            errorOf(rendered, channel, kWidth, [](double beyond) { return builtin::diffusedStep(beyond); });
         fmt::print("channel {}: {:.2e}\n", channel, error);
         EXPECT_LE(error, 0.01) << channel;
     }
     double whole = 0.0, apart = 0.0;
-    for (const Diffusion::Answer& answer : rendered.spread) {
-        whole += answer.whole.r / double(rendered.spread.size());
+    for (const Diffusion::Answer& answer : rendered.diffused) {
+        whole += answer.whole.r / double(rendered.diffused.size());
         apart += answer.apart;
     }
     EXPECT_NEAR(whole, 1.0, 2e-3) << "the profile's integral over an unbounded plane";
@@ -77,7 +77,7 @@ TEST(ReferenceDiffusion, aDotOfLightIsTheProfile) {
             const double pixel = kWidth / rendered.width;
             const glm::dvec2 place =
                 pixel * (glm::dvec2(x, y) + 0.5 - 0.5 * glm::dvec2(rendered.width, rendered.height));
-            const glm::dvec3 right = builtin::spreadDot(glm::length(place));
+            const glm::dvec3 right = builtin::diffusedDot(glm::length(place));
             const glm::dvec3 own = rendered.radiance[std::size_t(y * rendered.width + x)];
             wrong += glm::dot(own - right, own - right);
             whole += glm::dot(right, right);

@@ -82,7 +82,7 @@ TEST(ReferenceHook, itGetsTheSurfaceAndThePlace) {
     std::size_t covered = 0;
     for (const std::uint8_t pixel : rendered.covered) covered += pixel;
     EXPECT_GT(covered, 0u);
-    EXPECT_EQ(count, covered) << "a pixel asks about a point once";
+    EXPECT_EQ(count, covered) << "a pixel requests a point once";
 }
 
 TEST(ReferenceHook, whatItGivesIsKeptWithinWhatASurfaceMayBe) {
@@ -126,7 +126,7 @@ TEST(ReferenceHook, anUnlitSurfaceShowsItsEmissionAlone) {
     EXPECT_EQ(rendered.radiance[std::size_t(view.settings.sizePixels.x) * 13 + 24], glm::dvec3(0.125, 0.5, 0.75));
 }
 
-TEST(ReferenceHook, materialsThatItLeavesAloneAreNotAsked) {
+TEST(ReferenceHook, materialsThatItLeavesAloneAreNotEvaluated) {
     HookedView view(test::everythingScene());
     view.scene.hook->materials.clear();
     const Rendered rendered = view.rendered([](const HookPoint& point) {

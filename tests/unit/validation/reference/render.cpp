@@ -182,7 +182,7 @@ TEST(ReferenceRender, ofTrianglesInOnePlaceEitherIsAllowedAndNoMixOfThem) {
         EXPECT_EQ(rendered.radiance[0] + other.least, glm::dvec3(1.0, 0.0, 1.0));
         EXPECT_EQ(rendered.radiance[0] * other.least, glm::dvec3(0.0));
     }
-    settings.leeway = false;
+    settings.findsAlternatives = false;
     EXPECT_TRUE(render(scene, settings).alternatives[0].empty());
 }
 
@@ -204,7 +204,7 @@ Settings settingsUnderASphere(scenes::Scene& scene) {
     return settings;
 }
 
-TEST(ReferenceRender, aSurfaceShowsAnAreaLightAndTheErrorOfItsIntegralIsTold) {
+TEST(ReferenceRender, aSurfaceShowsAnAreaLightAndTheErrorOfItsIntegralIsReported) {
     scenes::Scene scene;
     const Settings settings = settingsUnderASphere(scene);
     const Rendered rendered = render(scene, settings);

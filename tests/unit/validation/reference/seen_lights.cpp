@@ -256,7 +256,7 @@ TEST_F(ReferencePictureOfALight, whereRoundingDecidesBothAreAllowed) {
     makeTransparent();
     EXPECT_TRUE(allows(glm::dvec3(4.0)));
     EXPECT_TRUE(allows(glm::dvec3(2.5)));
-    settings_.leeway = false;
+    settings_.findsAlternatives = false;
     EXPECT_TRUE(render(scene_, settings_).alternatives[0].empty());
 }
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/TestScenes.h"
-#include "validation/reference/Leeway.h"
+#include "validation/reference/LookupTolerance.h"
 #include "validation/reference/Textures.h"
 
 namespace tessera::reference {
@@ -87,13 +87,13 @@ TEST_F(ReferenceSlots, whatHardwareIsGrantedIsABitOfAWeightAndOfATexelAndLessTha
     const Pyramid& pyramid = textures.pyramid(0, Transfer::Srgb);
     // One texel per pixel.
     const Footprint footprint{glm::dvec2(0.5), glm::dvec2(1.0 / kSide, 0.0), glm::dvec2(0.0, 1.0 / kSide)};
-    const Leeway leeway = leewayOf(Filtering::Hardware, use, footprint, pyramid, hit_);
+    const LookupTolerance tolerance = lookupTolerance(Filtering::Hardware, use, footprint, pyramid, hit_);
     for (int axis = 0; axis < 2; ++axis) {
-        EXPECT_GT(leeway.texCoord[axis] * kSide, 1.0 / 256.0);
-        EXPECT_LT(leeway.texCoord[axis] * kSide, 4.0 / 256.0);
+        EXPECT_GT(tolerance.texCoord[axis] * kSide, 1.0 / 256.0);
+        EXPECT_LT(tolerance.texCoord[axis] * kSide, 4.0 / 256.0);
     }
-    EXPECT_DOUBLE_EQ(leeway.codes, 1.0 / 255.0);
-    for (const double levels : {leeway.coarser, leeway.finer}) {
+    EXPECT_DOUBLE_EQ(tolerance.codes, 1.0 / 255.0);
+    for (const double levels : {tolerance.coarser, tolerance.finer}) {
         EXPECT_GT(levels, 0.25);
         EXPECT_LT(levels, 0.5);
     }

@@ -32,12 +32,12 @@ inline constexpr std::array kObjColours{ObjColoursInfo{ObjColours::Srgb, "srgb"}
 static_assert(isInOrder(kObjColours, &ObjColoursInfo::encoding, std::size_t(ObjColours::Count)));
 
 /// Requested import options. They apply to every model of a load, including those named by scene files.
-struct ImportWishes {
+struct ImportOptions {
     bool isStrict = false;                ///< reject models with repairable flaws instead of warning
     std::optional<std::string> variant;   ///< material variant to use in models that have it (KHR_materials_variants)
     std::optional<LightUnits> lightUnits; ///< of glTF models; none: deduced from the exporter
     ObjColours objColours = ObjColours::Srgb;
-    bool operator==(const ImportWishes&) const = default;
+    bool operator==(const ImportOptions&) const = default;
 };
 
 } // namespace tessera::scenes

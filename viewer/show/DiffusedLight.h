@@ -12,10 +12,10 @@ inline constexpr int kPassingAtlasTexels = 128;
 
 /// The first look that diffuses irradiance, if all that do so have the same irradiance; none if none does, or if they
 /// differ.
-std::optional<Look> sharedSpread(const scenes::Scene& scene, std::span<const Look> looks);
+std::optional<Look> sharedDiffusion(const scenes::Scene& scene, std::span<const Look> looks);
 
 /// Number of tiles to light in one slice while idle: as many as keep the response to input fast.
-class SpreadPace {
+class DiffusionPace {
 public:
     std::size_t tiles() const { return tiles_; } ///< initially 1, to measure a slice's fixed cost
     /// Records the time of a slice of tiles() tiles, without compiling shaders.
@@ -28,7 +28,7 @@ private:
 
 /// Tracks what the renderer's diffused irradiance was computed for. Recomputing it for full atlases takes seconds, so
 /// images that do not stay use small ones.
-class SpreadLight {
+class DiffusedLight {
 public:
     /// Whether images of these looks, drawn one after the other, need irradiance that is not kept. `edits` is
     /// OpenScene::pictureEdits().

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/Settings.h"
-#include "viewer/show/SpreadLight.h"
+#include "viewer/show/DiffusedLight.h"
 
 namespace tessera::viewer {
 namespace {
@@ -10,9 +10,9 @@ using scenes::SubsurfaceMethod;
 
 constexpr int kIdlePictures = 3;
 
-class SpreadLightTest : public testing::Test {
+class DiffusedLightTest : public testing::Test {
 protected:
-    SpreadLightTest() {
+    DiffusedLightTest() {
         scenes::Material skin;
         skin.subsurface.method = SubsurfaceMethod::TextureSpaceDiffusion;
         scene_.materials.push_back(skin);
@@ -26,10 +26,10 @@ protected:
     }
 
     scenes::Scene scene_;
-    SpreadLight known_;
+    DiffusedLight known_;
 };
 
-TEST_F(SpreadLightTest, aSceneThatSpreadsNoneNeedsNone) {
+TEST_F(DiffusedLightTest, aSceneThatDiffusesNoneNeedsNone) {
     EXPECT_TRUE(isAnew({}));
     Look off;
     off.settings.subsurface = SubsurfaceMethod::None;
@@ -38,7 +38,7 @@ TEST_F(SpreadLightTest, aSceneThatSpreadsNoneNeedsNone) {
     EXPECT_FALSE(isAnew({}));
 }
 
-TEST_F(SpreadLightTest, whatWasDrawnIsKeptUntilWhatEntersChanges) {
+TEST_F(DiffusedLightTest, whatWasDrawnIsKeptUntilWhatEntersChanges) {
     Look look;
     look.settings.diffusion.sideTexels = 512;
     draw(look);
@@ -68,7 +68,7 @@ TEST_F(SpreadLightTest, whatWasDrawnIsKeptUntilWhatEntersChanges) {
     EXPECT_TRUE(changed([](frame::FrameSettings& its) { its.diffusion.gaussians = 2; }));
 }
 
-TEST_F(SpreadLightTest, smallAtlasesTakeThePlaceOfWhatIsKept) {
+TEST_F(DiffusedLightTest, smallAtlasesTakeThePlaceOfWhatIsKept) {
     Look before, edited;
     edited.settings.diffusion.gaussians = 2;
     draw(before);
@@ -77,7 +77,7 @@ TEST_F(SpreadLightTest, smallAtlasesTakeThePlaceOfWhatIsKept) {
     EXPECT_TRUE(isAnew(before)) << "going back needs it anew";
 }
 
-TEST_F(SpreadLightTest, anotherViewNeedsNoneAndLosesItOnlyAfterAWhile) {
+TEST_F(DiffusedLightTest, anotherViewNeedsNoneAndLosesItOnlyAfterAWhile) {
     Look lit, normals;
     normals.settings.view = frame::DebugView::Normal;
     EXPECT_FALSE(isAnew(normals));
@@ -92,7 +92,7 @@ TEST_F(SpreadLightTest, anotherViewNeedsNoneAndLosesItOnlyAfterAWhile) {
     EXPECT_TRUE(isAnew(lit)) << "the renderer dropped it";
 }
 
-TEST_F(SpreadLightTest, twoSidesShareOne) {
+TEST_F(DiffusedLightTest, twoSidesShareOne) {
     std::array<Look, 2> sides;
     const auto isAnewForBoth = [&] { return known_.isAnew(scene_, sides, 0); };
     known_.drew(scene_, sides, 0, kIdlePictures);
@@ -100,29 +100,29 @@ TEST_F(SpreadLightTest, twoSidesShareOne) {
     sides[0].technique = engine::Technique::Forward;
     EXPECT_FALSE(isAnewForBoth());
     sides[0].settings.subsurface = SubsurfaceMethod::None;
-    EXPECT_FALSE(isAnewForBoth()) << "only the right side spreads light";
+    EXPECT_FALSE(isAnewForBoth()) << "only the right side diffuses light";
     sides[0] = sides[1];
     sides[0].settings.diffusion.gaussians = 1;
     known_.drew(scene_, sides, 0, kIdlePictures);
     EXPECT_TRUE(isAnewForBoth()) << "each picture replaces what the other side needs";
 }
 
-TEST_F(SpreadLightTest, slicesSpreadTheLightThatAllSidesShare) {
+TEST_F(DiffusedLightTest, slicesDiffuseTheLightThatAllSidesShare) {
     std::array<Look, 2> sides;
     sides[0].settings.subsurface = SubsurfaceMethod::None;
     sides[1].settings.camera = 3;
-    ASSERT_TRUE(sharedSpread(scene_, sides));
-    EXPECT_EQ(*sharedSpread(scene_, sides), sides[1]) << "the other side spreads none";
+    ASSERT_TRUE(sharedDiffusion(scene_, sides));
+    EXPECT_EQ(*sharedDiffusion(scene_, sides), sides[1]) << "the other side diffuses none";
     sides[0] = {};
-    EXPECT_TRUE(sharedSpread(scene_, sides)) << "cameras do not matter";
+    EXPECT_TRUE(sharedDiffusion(scene_, sides)) << "cameras do not matter";
     sides[0].settings.diffusion.gaussians = 1;
-    EXPECT_FALSE(sharedSpread(scene_, sides)) << "each needs its own";
+    EXPECT_FALSE(sharedDiffusion(scene_, sides)) << "each needs its own";
     scene_.nodes.clear();
-    EXPECT_FALSE(sharedSpread(scene_, sides));
+    EXPECT_FALSE(sharedDiffusion(scene_, sides));
 }
 
-TEST(SpreadPace, followsWhatSlicesTake) {
-    SpreadPace pace;
+TEST(DiffusionPace, followsWhatSlicesTake) {
+    DiffusionPace pace;
     EXPECT_EQ(pace.tiles(), 1u);
     pace.took(1.0);
     EXPECT_EQ(pace.tiles(), 2u) << "twice at most";
@@ -132,7 +132,7 @@ TEST(SpreadPace, followsWhatSlicesTake) {
     EXPECT_GE(pace.tiles(), 1u);
     for (int slice = 0; slice < 40; ++slice) pace.took(0.0);
     EXPECT_LE(pace.tiles(), 1u << 20) << "has an end";
-    SpreadPace ofLargeMesh;
+    DiffusionPace ofLargeMesh;
     for (int slice = 0; slice < 30; ++slice) ofLargeMesh.took(500.0 + 1.0 * double(ofLargeMesh.tiles()));
     EXPECT_NEAR(double(ofLargeMesh.tiles()), 502.0, 5.0) << "small slices would cost the mesh again and again";
 }

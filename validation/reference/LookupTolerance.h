@@ -11,14 +11,14 @@ namespace tessera::reference {
 /// Filtering::Hardware: also what OpenGL leaves to the driver: the interpolation of coordinates, the digits of its
 /// weights, and the level of detail between finestLevelOf() and the sum of both changes. The sum is not allowed here,
 /// or a wrong level would pass. Drivers magnify up to level 0 also where OpenGL says 1/2.
-struct Leeway {
+struct LookupTolerance {
     glm::dvec2 texCoord{0.0};          ///< in either direction
     double finer = 0.0, coarser = 0.0; ///< levels of detail
     double magnifiedFrom = 0.0;        ///< the lowest level of detail up to which a program may magnify
     double codes = 0.0;                ///< of a texel's code values, 0..1
 };
 
-Leeway leewayOf(Filtering filtering, const scenes::TextureUse& use, const Footprint& footprint, const Pyramid& pyramid,
-                const Hit& hit);
+LookupTolerance lookupTolerance(Filtering filtering, const scenes::TextureUse& use, const Footprint& footprint,
+                                const Pyramid& pyramid, const Hit& hit);
 
 } // namespace tessera::reference

@@ -6,15 +6,15 @@
 #include "shared/slots.h"
 #include "shared/diffusion.h"
 
-layout(std140, binding = UNIFORM_PASS) uniform DiffusionSpreadBlock
+layout(std140, binding = UNIFORM_PASS) uniform DiffusionBlurBlock
 {
-    DiffusionSpreadConstants constants;
+    DiffusionBlurConstants constants;
 };
 
 layout(binding = TEXTURE_UNIT_DIFFUSION_STEPS) uniform sampler2D steps;
 layout(binding = TEXTURE_UNIT_DIFFUSION_LIGHT) uniform sampler2D light;
 
-layout(location = 0) out vec4 spread;
+layout(location = 0) out vec4 diffused;
 #if SUMS
 layout(location = 1) out vec4 sum;
 #endif
@@ -93,7 +93,7 @@ void main()
         }
     }
     precise vec3 result = lit / max(weights, 1e-37);
-    spread = vec4(result, 1.0);
+    diffused = vec4(result, 1.0);
 #if SUMS
     sum = vec4(constants.weight.rgb * result, 1.0);
 #endif

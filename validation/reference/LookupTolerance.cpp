@@ -1,4 +1,4 @@
-#include "validation/reference/Leeway.h"
+#include "validation/reference/LookupTolerance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,28 +41,28 @@ glm::dvec2 transformedMagnitudes(const scenes::TextureUse& use, const Footprint&
 
 } // namespace
 
-Leeway leewayOf(Filtering filtering, const scenes::TextureUse& use, const Footprint& footprint, const Pyramid& pyramid,
-                const Hit& hit) {
+LookupTolerance lookupTolerance(Filtering filtering, const scenes::TextureUse& use, const Footprint& footprint,
+                                const Pyramid& pyramid, const Hit& hit) {
     const glm::dvec2 aPixel = glm::abs(footprint.dx) + glm::abs(footprint.dy);
-    Leeway leeway;
-    leeway.texCoord = hit.roundingPixels * aPixel + kCoordinateRounding * transformedMagnitudes(use, footprint);
-    leeway.finer = leeway.coarser = hit.roundingLevels;
-    leeway.magnifiedFrom = magnifiedUpTo(use.sampler);
-    if (filtering == Filtering::Exact) return leeway;
-    leeway.magnifiedFrom = 0.0;
-    leeway.codes = codesOf(pyramid);
+    LookupTolerance tolerance;
+    tolerance.texCoord = hit.roundingPixels * aPixel + kCoordinateRounding * transformedMagnitudes(use, footprint);
+    tolerance.finer = tolerance.coarser = hit.roundingLevels;
+    tolerance.magnifiedFrom = magnifiedUpTo(use.sampler);
+    if (filtering == Filtering::Exact) return tolerance;
+    tolerance.magnifiedFrom = 0.0;
+    tolerance.codes = codesOf(pyramid);
     const glm::ivec2 sizeTexels = pyramid.sizeTexels(0);
     const double level = levelOf(footprint, sizeTexels);
     const double texelOfLevel = std::exp2(std::max(level, 0.0));
-    leeway.texCoord += kSnappedPixels * aPixel + kWeightTexels * texelOfLevel / glm::dvec2(sizeTexels);
+    tolerance.texCoord += kSnappedPixels * aPixel + kWeightTexels * texelOfLevel / glm::dvec2(sizeTexels);
     // Drivers take one footprint per block of 2x2 pixels, by differences.
     const double block = 2.0 * hit.perspective * std::numbers::log2e;
-    leeway.coarser += kBlendLevels + block;
-    leeway.finer += kBlendLevels + block;
+    tolerance.coarser += kBlendLevels + block;
+    tolerance.finer += kBlendLevels + block;
     // Both are -infinity where the mesh has no coordinates.
     const double finest = finestLevelOf(footprint, sizeTexels);
-    if (level > finest) leeway.finer += level - finest;
-    return leeway;
+    if (level > finest) tolerance.finer += level - finest;
+    return tolerance;
 }
 
 } // namespace tessera::reference

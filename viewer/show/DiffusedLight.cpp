@@ -1,4 +1,4 @@
-#include "viewer/show/SpreadLight.h"
+#include "viewer/show/DiffusedLight.h"
 
 #include <algorithm>
 
@@ -8,12 +8,12 @@
 namespace tessera::viewer {
 namespace {
 
-bool spreads(const scenes::Scene& scene, const Look& look) {
-    return frame::showsLitPicture(look.settings.view) && scenes::anySpreads(scene, look.settings.subsurface);
+bool diffuses(const scenes::Scene& scene, const Look& look) {
+    return frame::showsLitPicture(look.settings.view) && scenes::anyDiffuses(scene, look.settings.subsurface);
 }
 
 /// Whether a and b have the same diffused irradiance.
-bool hasSameSpread(const Look& a, const Look& b) {
+bool hasSameDiffusion(const Look& a, const Look& b) {
     Look like = a;
     like.aside = b.aside;
     for (const engine::Setting& setting : engine::settingTable())
@@ -29,17 +29,17 @@ constexpr std::size_t kMostTiles = 65536;
 
 } // namespace
 
-std::optional<Look> sharedSpread(const scenes::Scene& scene, std::span<const Look> looks) {
+std::optional<Look> sharedDiffusion(const scenes::Scene& scene, std::span<const Look> looks) {
     std::optional<Look> shared;
     for (const Look& look : looks) {
-        if (!spreads(scene, look)) continue;
-        if (shared && !hasSameSpread(*shared, look)) return {};
+        if (!diffuses(scene, look)) continue;
+        if (shared && !hasSameDiffusion(*shared, look)) return {};
         if (!shared) shared = look;
     }
     return shared;
 }
 
-void SpreadPace::took(double ms) {
+void DiffusionPace::took(double ms) {
     leastMs_ = leastMs_ ? std::min(*leastMs_, ms) : ms;
     const double wantedMs = std::max(kSliceMs, kOfLeast * *leastMs_);
     // Tiles differ: one fast slice does not predict the others.
@@ -47,20 +47,20 @@ void SpreadPace::took(double ms) {
     tiles_ = std::clamp(std::size_t(double(tiles_) * factor), std::size_t(1), kMostTiles);
 }
 
-bool SpreadLight::isAnew(const scenes::Scene& scene, std::span<const Look> looks, std::uint64_t edits) const {
+bool DiffusedLight::isAnew(const scenes::Scene& scene, std::span<const Look> looks, std::uint64_t edits) const {
     const Look* kept = kept_ && kept_->edits == edits ? &kept_->look : nullptr;
     for (const Look& look : looks) {
-        if (!spreads(scene, look)) continue;
-        if (kept == nullptr || !hasSameSpread(*kept, look)) return true;
+        if (!diffuses(scene, look)) continue;
+        if (kept == nullptr || !hasSameDiffusion(*kept, look)) return true;
         kept = &look;
     }
     return false;
 }
 
-void SpreadLight::drew(const scenes::Scene& scene, std::span<const Look> looks, std::uint64_t edits,
-                       int mostIdlePictures) {
+void DiffusedLight::drew(const scenes::Scene& scene, std::span<const Look> looks, std::uint64_t edits,
+                         int mostIdlePictures) {
     for (const Look& look : looks) {
-        if (spreads(scene, look))
+        if (diffuses(scene, look))
             kept_ = {look, edits};
         else if (kept_ && ++kept_->idlePictures > mostIdlePictures)
             forget();
