@@ -71,7 +71,7 @@ std::string Desktop::xdotool(const std::vector<std::string>& words) const {
 
 void Desktop::capture(const std::filesystem::path& file) const {
     // Little compression takes a fifth of the time.
-    checked({"import", "-silent", "-window", "root", "-quality", "1", "png:" + file.string()}, display_);
+    checked({"import", "-silent", "-window", "root", "-quality", "1", "png24:" + file.string()}, display_);
 }
 
 } // namespace tessera::test
