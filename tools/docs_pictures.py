@@ -4,8 +4,9 @@ shows of the built-in scenes, into viewer/thumbnails.
 
 Usage: tools/docs_pictures.py [NAME]... [--program build/release/apps/tessera] [--into FOLDER]
 
-A picture is a row of panels, each a call of `tessera render`. Panels are drawn at twice their size and averaged, so that
-edges are smooth. Needs ImageMagick (Debian: imagemagick).
+A picture is panels, at most five in a row, each a call of `tessera render`. Panels are drawn at twice their size and
+averaged, so that edges are smooth. Models of Khronos are read from the folder TESSERA_ASSETS; without it their pictures
+are left out. Needs ImageMagick (Debian: imagemagick).
 """
 import argparse
 import json
@@ -16,7 +17,9 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
+ASSETS = os.environ.get("TESSERA_ASSETS")
 GAP_PIXELS = 4
+MOST_COLUMNS = 5
 
 
 def light(name, type_, position, target, colour, intensity, cones, radius):
@@ -44,6 +47,11 @@ def sick():
     return {**scene, "lights": SKIN_LIGHTS}
 
 
+def model(name):
+    """The file of a Khronos model, in the folder of its name."""
+    return next(pathlib.Path(ASSETS, name).glob(f"{name}.gl*"))
+
+
 SOFT = ["--shadow-samples", "16"]
 CLOSE = ["--camera", "close", *SOFT]
 BUST = ["--target", "0,0.49,0", "--fov", "15.5"]
@@ -60,7 +68,17 @@ PICTURES = {
     "lamps": ((1280, 720), 88, [("lamps", ["--shadows", "none"])]),
     "flag": ((300, 225), 90, [(str(ROOT / "scenes/files/flag.json"), ["--camera", "near", "--time", time]) for time in
                               ("0", "0.35", "0.7", "1.05")]),
+    "python": ((400, 225), 90, [("hall", ["--view", view]) for view in ("final", "depth", "normal")]),
 }
+if ASSETS:
+    PICTURES |= {
+        "fox": ((240, 200), 90, [(model("Fox"), ["--clip", "Run", "--time", time]) for time in
+                                 ("0", "0.15", "0.3", "0.45", "0.6")]),
+        # Only models that their authors gave to the public domain.
+        "khronos-models": ((400, 300), 86, [(model(name), []) for name in (
+            "WaterBottle", "ToyCar", "SheenCloth", "AnisotropyStrengthTest", "MetalRoughSpheresNoTextures", "TransmissionTest",
+            "NormalTangentTest", "TextureEncodingTest")]),
+    }
 
 
 def thumbnails(program, folder):
@@ -89,8 +107,10 @@ def draw(name, program, folder):
             factor = 1 if "reference" in options else 2
             size = f"{factor * width}x{factor * height}"
             subprocess.run([program, "render", scene, "-o", picture, "--size", size, *options], check=True)
-            drawn += ["(", picture, "-resize", f"{width}x{height}!", *(["-splice", f"{GAP_PIXELS}x0"] if number else []), ")"]
-        subprocess.run(["convert", "-background", "black", *drawn, "+append", "-quality", str(quality), folder / f"{name}.jpg"],
+            drawn.append(picture)
+        columns = len(drawn) if len(drawn) <= MOST_COLUMNS else 4
+        subprocess.run(["montage", *drawn, "-resize", f"{width}x{height}!", "-tile", f"{columns}x", "-background", "black",
+                        "-geometry", f"+{GAP_PIXELS // 2}+{GAP_PIXELS // 2}", "-quality", str(quality), folder / f"{name}.jpg"],
                        check=True)
 
 
