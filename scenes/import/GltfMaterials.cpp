@@ -63,25 +63,6 @@ unsigned bitOf(int texCoordSet) {
     return 1u << std::min(texCoordSet, kTexCoordSets);
 }
 
-/// Box-projected coordinates: each vertex in the mesh's bounds, seen along the axis nearest to its normal.
-std::vector<glm::vec2> boxCoordinates(const Mesh& mesh) {
-    glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
-    for (const glm::vec3& position : mesh.positionsOS) {
-        least = glm::min(least, glm::dvec3(position));
-        most = glm::max(most, glm::dvec3(position));
-    }
-    const glm::dvec3 sides = most - least;
-    const double longest = std::max({sides.x, sides.y, sides.z, double(std::numeric_limits<float>::min())});
-    std::vector<glm::vec2> coordinates;
-    for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i) {
-        const glm::dvec3 place = (glm::dvec3(mesh.positionsOS[i]) - least) / longest,
-                         normal = glm::abs(mesh.normalsOS[i]);
-        const bool isAlongX = normal.x > std::max(normal.y, normal.z), isAlongY = !isAlongX && normal.y > normal.z;
-        coordinates.emplace_back(isAlongX ? place.z : place.x, isAlongY ? place.z : place.y);
-    }
-    return coordinates;
-}
-
 bool isNormalMap(TextureSlot slot) {
     return slot == TextureSlot::Normal || slot == TextureSlot::ClearcoatNormal;
 }
@@ -154,9 +135,12 @@ ShownMaterial Materials::shownBy(const tiny::Primitive& primitive, Mesh& mesh) c
         if (mesh.texCoords[std::size_t(set)].empty()) shown.lostSets |= bitOf(set);
     const ShownMaterial ofVariant{context_.variantMaterial(primitive).value_or(kNone), shown.shading};
     const unsigned needed = neededSets(shown) | neededSets(ofVariant);
-    if (shown.lostSets == 2 * bitOf(kTexCoordSets) - 1 && needed != 0) {
+    for (int set = 0; set < kTexCoordSets; ++set) {
+        // Stand-ins of sets that are not supported take set 0.
+        const unsigned shownSets = set == 0 ? bitOf(0) | bitOf(kTexCoordSets) : bitOf(set);
+        if ((needed & shownSets) == 0 || !mesh.texCoords[std::size_t(set)].empty()) continue;
         context_.document.ledger.charge(mesh.positionsOS.size() * sizeof(glm::vec2), [&] { return mesh.name; });
-        mesh.texCoords[0] = boxCoordinates(mesh);
+        mesh.texCoords[std::size_t(set)] = boxCoordinates(mesh);
     }
     return shown;
 }
@@ -298,7 +282,7 @@ TextureUse Materials::use(const TextureInfo& info, TextureSlot slot, const std::
                 ? fmt::format("needs TEXCOORD_{}, which a mesh lacks", info.texCoordSet)
                 : fmt::format("uses texture coordinate set {}; only 0 and 1 are supported", info.texCoordSet));
         if (!usesStandIn(slot)) return {};
-        return {standIn(), {}, (lostSets & 3u) == 1u ? 1 : 0, {}};
+        return {standIn(), {}, info.texCoordSet < kTexCoordSets ? info.texCoordSet : 0, {}};
     }
     const tiny::Model& model = context_.document.model;
     const tiny::Texture& texture = elementAt(model.textures, info.texture);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "scenes/import/PictureCodecs.h"
@@ -42,6 +43,24 @@ Image standInPicture(LoadLedger& ledger, const std::string& who) {
             image.texels.insert(image.texels.end(), texel.begin(), texel.end());
         }
     return image;
+}
+
+std::vector<glm::vec2> boxCoordinates(const Mesh& mesh) {
+    glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);
+    for (const glm::vec3& position : mesh.positionsOS) {
+        least = glm::min(least, glm::dvec3(position));
+        most = glm::max(most, glm::dvec3(position));
+    }
+    const glm::dvec3 sides = most - least;
+    const double longest = std::max({sides.x, sides.y, sides.z, double(std::numeric_limits<float>::min())});
+    std::vector<glm::vec2> coordinates;
+    for (std::size_t i = 0; i < mesh.positionsOS.size(); ++i) {
+        const glm::dvec3 place = (glm::dvec3(mesh.positionsOS[i]) - least) / longest,
+                         normal = glm::abs(mesh.normalsOS[i]);
+        const bool isAlongX = normal.x > std::max(normal.y, normal.z), isAlongY = !isAlongX && normal.y > normal.z;
+        coordinates.emplace_back(isAlongX ? place.z : place.x, isAlongY ? place.z : place.y);
+    }
+    return coordinates;
 }
 
 Image packChannels(const std::string& name, const std::array<ChannelSource, 4>& sources) {

@@ -1,11 +1,12 @@
 #pragma once
 #include <array>
 #include <string>
+#include <vector>
 
 #include "scenes/LoadLedger.h"
 #include "scenes/Scene.h"
 
-/// Images made by importers: stand-ins for unreadable images, and combinations of channels.
+/// Made by importers: stand-ins for unreadable images and missing coordinates, and combinations of channels.
 namespace tessera::scenes {
 
 /// A checkerboard of 8 x 8 squares, magenta and dark grey, opaque. Textures that hold no colours have no stand-in: they
@@ -19,6 +20,10 @@ inline constexpr const char* kStandInText = "; its colours are a checkerboard, a
 inline bool usesStandIn(TextureSlot slot) {
     return infoOf(slot).isSrgb;
 }
+
+/// Texture coordinates of a mesh without any: each vertex in the mesh's bounds, seen along the axis nearest to its
+/// normal.
+std::vector<glm::vec2> boxCoordinates(const Mesh& mesh);
 
 /// The source of a channel of a packed image: offset + scale x a channel of `image`, or 1 if `image` is null.
 struct ChannelSource {

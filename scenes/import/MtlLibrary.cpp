@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iterator>
 #include <limits>
+#include <sstream>
 #include <system_error>
 #include <variant>
 
@@ -246,15 +248,14 @@ private:
     std::vector<MtlMaterial> materials_;
 };
 
-/// The files named after mtllib: one name that may contain spaces and '#', or several without.
+/// The files named after mtllib: one name that may contain spaces and '#', or several without or in quotes.
 std::vector<NamedFile> librariesOf(const std::string& statement, const std::filesystem::path& folder) {
     const std::string name(withoutComment(statement));
     for (const std::string& whole : {statement, name})
         if (NamedFile file = fileNamed(folder, whole); file.isFound) return {file};
-    std::vector<std::string_view> words;
-    addWords(name, words);
     std::vector<NamedFile> files;
-    for (const std::string_view word : words) files.push_back(fileNamed(folder, std::string(word)));
+    std::istringstream words(name);
+    for (std::string word; words >> std::quoted(word, '"', '\0');) files.push_back(fileNamed(folder, word));
     // If no such file exists, messages should show the whole statement.
     if (std::ranges::any_of(files, &NamedFile::isFound)) return files;
     return {{folder / name, false}};

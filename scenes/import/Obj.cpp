@@ -9,6 +9,7 @@
 
 #include "scenes/import/GltfSteps.h"
 #include "scenes/import/Importers.h"
+#include "scenes/import/MadeImages.h"
 #include "scenes/import/ObjMaterials.h"
 #include "scenes/import/ObjText.h"
 
@@ -206,6 +207,14 @@ private:
             mesh.name = builders.size() == 1
                             ? node.name
                             : fmt::format("{}, {}", node.name, scene_.materials[std::size_t(material)].name);
+            const auto isPicture = [](const TextureUse& use) { return use.image != kNone; };
+            if (!isThin && mesh.texCoords[0].empty() &&
+                std::ranges::any_of(scene_.materials[std::size_t(material)].textures, isPicture)) {
+                ledger_.charge(mesh.positionsOS.size() * sizeof(glm::vec2), [&] { return mesh.name; });
+                mesh.texCoords[0] = boxCoordinates(mesh);
+                repairs_.note(file_.string(), 0, "its pictures are projected along the axes",
+                              "'{}' has no texture coordinates", mesh.name);
+            }
             const int index = int(scene_.meshes.size());
             if (isThin) thinModes_[index] = part.first;
             node.instances.push_back({index, material});

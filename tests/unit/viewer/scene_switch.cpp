@@ -269,9 +269,10 @@ TEST_F(SceneSwitchTest, aNoteCountsTheWarningsOfALoadAndNamesWhatWasSupplied) {
     ASSERT_TRUE(open("spheres"));
     EXPECT_EQ(state_.notice.text, "");
     folder_.write("bare.mtl", "newmtl a\nmap_Kd gone.png\nnewmtl b\nmap_Kd lost.png\nd 0\n");
-    const std::string bare =
-        folder_.write("bare.obj", "mtllib bare.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\n")
-            .string();
+    const std::string bare = folder_
+                                 .write("bare.obj", "mtllib bare.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n"
+                                                    "usemtl a\nf 1/1 2/1 3/1\nusemtl b\nf 1/1 2/1 3/1\n")
+                                 .string();
     ASSERT_TRUE(open(bare)) << failure_;
     EXPECT_EQ(state_.notice.text,
               "2 pictures missing, shown by a checkerboard; 1 other warning; supplied: environment, "

@@ -113,7 +113,8 @@ TEST(GltfRepairs, whereTextureCoordinatesAreMissingColoursAreTheStandIn) {
     EXPECT_EQ(materialOf(0).name, "paint, without texture coordinates");
     EXPECT_EQ(picture(0, TextureSlot::Normal), kNone);
     EXPECT_NE(picture(1, TextureSlot::Normal), kNone);
-    EXPECT_EQ(scene.meshes.at(0).texCoords[0], (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}));
+    const int set = materialOf(0).texture(TextureSlot::BaseColor).texCoordSet;
+    EXPECT_EQ(scene.meshes.at(0).texCoords.at(std::size_t(set)), (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}));
     EXPECT_TRUE(
         hasWarning(scene, "/materials/0/pbrMetallicRoughness/baseColorTexture: needs TEXCOORD_0, which a mesh lacks"));
 }

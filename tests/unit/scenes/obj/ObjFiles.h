@@ -25,7 +25,7 @@ protected:
     /// A scene of one triangle whose material "paint" has the given MTL statements.
     Scene painted(const std::string& mtl, const ImportOptions& importOptions = {}) const {
         folder.write("paint.mtl", "newmtl paint\n" + mtl);
-        return importText("mtllib paint.mtl\n" + std::string(kThreeVertices) + "usemtl paint\nf 1 2 3\n",
+        return importText("mtllib paint.mtl\n" + std::string(kThreeVertices) + "vt 0 0\nusemtl paint\nf 1/1 2/1 3/1\n",
                           importOptions);
     }
     Material paint(const std::string& mtl) const { return painted(mtl).materials.at(0); }
@@ -44,7 +44,7 @@ protected:
         return warning.substr(warning.starts_with(place) ? place.size() : 0);
     }
 
-    const TempFolder folder;
+    const TempFolder folder{};
 };
 
 inline double areaOf(const Scene& scene) {

@@ -184,6 +184,22 @@ TEST_F(ObjMaterials, eachMaterialOfAShapeHasItsOwnMesh) {
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
+TEST_F(ObjMaterials, oneStatementNamesSeveralLibrariesInQuotes) {
+    folder.write("my a.mtl", "newmtl red\nKd 1 0 0\n");
+    const Scene scene =
+        importText("mtllib \"my a.mtl\" gone.mtl\n" + std::string(kThreeVertices) + "usemtl red\nf 1 2 3\n");
+    EXPECT_EQ(scene.materials.at(0).baseColor, glm::vec4(1, 0, 0, 1));
+    EXPECT_THAT(onlyWarning(scene), HasSubstr("material library 'gone.mtl' is missing"));
+}
+
+TEST_F(ObjMaterials, withoutTextureCoordinatesPicturesAreProjected) {
+    folder.writePicture("a.tga", 1, 1, {{255, 0, 0, 255}});
+    folder.write("m.mtl", "newmtl red\nmap_Kd a.tga\n");
+    const Scene scene = importText("mtllib m.mtl\n" + std::string(kThreeVertices) + "usemtl red\nf 1 2 3\n");
+    EXPECT_EQ(scene.meshes.at(0).texCoords[0], (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}));
+    EXPECT_THAT(onlyWarning(scene), HasSubstr("has no texture coordinates; its pictures are projected along the axes"));
+}
+
 TEST_F(ObjMaterials, aMissingLibraryWarnsAndKeepsTheMaterialsNames) {
     const std::filesystem::path file =
         folder.write("model.obj", "mtllib no such.mtl\n" + std::string(kThreeVertices) + "usemtl skin\nf 1 2 3\n");
