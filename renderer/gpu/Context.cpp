@@ -4,6 +4,8 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -40,6 +42,19 @@ bool hasExtension(std::string_view wanted) {
     for (GLint64 i = 0; i < count; ++i)
         if (wanted == reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, GLuint(i)))) return true;
     return false;
+}
+
+/// Mesa maps the index of its shader cache into memory and fills it: on a full disk that ends the process.
+void avoidShaderCacheOnFullDisk() {
+    constexpr std::uintmax_t kIndexBytes = 2u << 20;
+    const char *own = std::getenv("MESA_SHADER_CACHE_DIR"), *all = std::getenv("XDG_CACHE_HOME"),
+               *home = std::getenv("HOME");
+    std::filesystem::path folder = own ? own : all ? all : home ? home : "";
+    std::error_code error;
+    while (folder.has_relative_path() && !std::filesystem::exists(folder, error)) folder = folder.parent_path();
+    if (folder.empty()) return;
+    const std::filesystem::space_info space = std::filesystem::space(folder, error);
+    if (!error && space.available < kIndexBytes) setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);
 }
 
 /// Sample counts of multisampled textures of this format, descending as GL lists them.
@@ -140,6 +155,7 @@ std::unique_ptr<Context> Context::create(const ContextOptions& options) {
     const bool egl = options.kind != ContextKind::Window;
     const bool window = options.kind != ContextKind::Egl;
     // Visible output needs the window; EGL is then the fallback, so that a program still runs without a display.
+    avoidShaderCacheOnFullDisk();
     if (window && options.visible) context = createWindowContext(options, answers);
     if (!context && egl) context = createEglContext(options, answers);
     if (!context && window && !options.visible) context = createWindowContext(options, answers);

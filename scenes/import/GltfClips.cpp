@@ -206,7 +206,9 @@ int Rigging::restNode(int index) {
     if (isNew) {
         const tiny::Node& node = elementAt(context_.document.model.nodes, index);
         context_.document.charge(2 * sizeof(RestNode), "nodes", index);
-        rig.nodes.push_back({sceneNodes_[std::size_t(index)], translationOf(node), rotationOf(node), scaleOf(node)});
+        const glm::dvec4 rotation = rotationOf(node);
+        rig.nodes.push_back({sceneNodes_[std::size_t(index)], translationOf(node),
+                             rotation == glm::dvec4(0.0) ? kNoRotation : rotation, scaleOf(node)});
     }
     return entry->second;
 }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "scenes/Limits.h"
+
 namespace tessera::scenes::gltf {
 namespace {
 
@@ -89,7 +91,8 @@ public:
         if (first == corners.end()) return;
         const std::string what =
             *first < vertexCount_
-                ? fmt::format("vertex {} of mesh '{}' has a position that is not finite", *first, meshName_)
+                ? fmt::format("vertex {} of mesh '{}' has a position that is not finite, or above {:g}", *first,
+                              meshName_, kFarthestMetres)
                 : fmt::format("index {} of mesh '{}' is no vertex; there are {}", *first, meshName_, vertexCount_);
         if (each == 0) context_.document.fail(place_, what);
         context_.document.repair(place_, "what it would be a corner of is left out", "{}", what);
@@ -136,8 +139,7 @@ private:
 
     void findLost(std::vector<glm::vec3>& positions) {
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            if (glm::all(glm::lessThan(glm::abs(positions[i]), glm::vec3(std::numeric_limits<float>::infinity()))))
-                continue;
+            if (isNearEnough(positions[i])) continue;
             isLost_.resize(positions.size());
             isLost_[i] = true;
             positions[i] = {};
@@ -262,7 +264,7 @@ private:
     std::string place_;
     std::string meshName_;
     std::size_t vertexCount_ = 0;
-    std::vector<bool> isLost_; ///< by vertex: its position is not finite; empty if all are finite
+    std::vector<bool> isLost_; ///< by vertex: its position is not finite or too far; empty if all are good
     std::optional<DracoGeometry> decoded_;
 };
 

@@ -8,8 +8,10 @@
 #include <glm/gtc/matrix_access.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "scenes/Limits.h"
 #include "scenes/Transform.h"
 #include "scenes/import/GltfMaterials.h"
+#include "scenes/import/GltfRig.h"
 
 namespace tessera::scenes::gltf {
 namespace {
@@ -192,9 +194,10 @@ std::vector<PlacedNode> placeNodes(const Document& document) {
             const glm::dmat4 worldFromParent =
                 next.parent >= 0 ? placed[std::size_t(next.parent)].worldFromNode : glm::dmat4(1.0);
             next.worldFromNode = worldFromParent * next.parentFromNode;
-            if (!isFinite(next.worldFromNode)) {
+            if (!isFinite(next.worldFromNode) || !isNearEnough(glm::dvec3(next.worldFromNode[3]))) {
                 document.repair(placeOf(next.node), "it is hidden with all below it",
-                                "its transform, with its ancestors', is not finite");
+                                "its transform, with its ancestors', is not finite or leads more than {:g} m away",
+                                kFarthestMetres);
                 next.isVisible = false;
                 next.parentFromNode = glm::dmat4(1.0);
                 next.worldFromNode = worldFromParent;

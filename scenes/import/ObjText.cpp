@@ -4,6 +4,7 @@
 #include <set>
 #include <unordered_map>
 
+#include "scenes/Limits.h"
 #include "scenes/import/GltfSteps.h"
 #include "scenes/import/ObjLines.h"
 #include "scenes/import/ObjMaterials.h"
@@ -108,6 +109,8 @@ private:
             numbers[glm::length_t(i)] = finiteNumber(line.keyword, line.words[i], flaw).value_or(0.0);
         if (*attribute == kNormal && flaw.empty() && glm::vec3(numbers) == glm::vec3(0.0f))
             flaw = "the normal has no length";
+        if (*attribute == kPosition && flaw.empty() && !isNearEnough(numbers))
+            flaw = fmt::format("the position lies more than {:g} m away", kFarthestMetres);
         if (!flaw.empty()) {
             charge(kNodeBytes<std::pair<std::size_t, Flaw>> + kRoom * flaw.size(), line);
             flaws_[*attribute].emplace(sizeOf(*attribute), Flaw{line.number, std::move(flaw)});

@@ -19,6 +19,7 @@ using testing::AllOf, testing::ElementsAre, testing::HasSubstr, testing::IsEmpty
 /// A temporary folder that can also hold images.
 class TempFolder : public tessera::test::TempFolder {
 public:
+    TempFolder() {} // clang makes no constant by an implicit constructor
     /// Writes a TGA image of `texels` RGBA texels, rows from the top.
     std::filesystem::path writePicture(const std::string& name, int width, int height,
                                        const std::vector<std::array<std::uint8_t, 4>>& texels) const {

@@ -149,7 +149,7 @@ TEST(CheckScene, eachBrokenRuleIsReported) {
         {"share of albedo before", [](Scene& s) { s.materials[0].subsurface.preScatterShare = -0.5f; }},
         {"has 9 Gaussians; give 1 to 8", [](Scene& s) { s.materials[0].subsurface.profile.resize(9); }},
         {"a variance of its profile",
-         [](Scene& s) { s.materials[0].subsurface.profile.emplace_back(-1.0f, glm::vec3(1.0f)); }},
+         [](Scene& s) { s.materials[0].subsurface.profile.push_back({-1.0f, glm::vec3(1.0f)}); }},
         {"a weight of its profile",
          [](Scene& s) { s.materials[0].subsurface.profile.emplace_back(1.0f, glm::vec3(kNaN)); }},
         {"sum to 1.267, 1 and 1 in red, green and blue; divide",

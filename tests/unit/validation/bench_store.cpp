@@ -114,9 +114,9 @@ TEST_F(BenchStoring, noOtherRunReplacesAShard) {
     EXPECT_THAT(
         test::errorText<InputError>([&] { BenchStore(out, madeUpIdentity(2, 2), madeUpPlan(2), EarlierRun::Keep); }),
         testing::AllOf(HasSubstr("holds shard 1/2, which shard 2/2 would replace"), HasSubstr("another folder")));
-    for (const auto& [shard, shards] : {std::pair(1, 1), {1, 3}, {2, 3}})
+    for (const glm::ivec2 other : {glm::ivec2(1, 1), {1, 3}, {2, 3}})
         EXPECT_THAT(test::errorText<InputError>(
-                        [&] { BenchStore(out, madeUpIdentity(shard, shards), madeUpPlan(2), EarlierRun::Keep); }),
+                        [&] { BenchStore(out, madeUpIdentity(other.x, other.y), madeUpPlan(2), EarlierRun::Keep); }),
                     HasSubstr("holds shard 1/2"));
     EXPECT_NO_THROW(BenchStore(out, madeUpIdentity(1, 2), madeUpPlan(2), EarlierRun::Keep));
 }

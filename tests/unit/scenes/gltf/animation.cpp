@@ -32,6 +32,14 @@ TEST(GltfAnimation, ofChannelsThatChangeTheSameThingTheLastIsKept) {
     expectPlace(drawnAt(scene, 0.5)[0], {0.0, 4.0, 0.0});
 }
 
+TEST(GltfAnimation, aNodeAtRestWithoutRotationIsNotRotated) {
+    Builder builder = movingTriangle();
+    builder.json["nodes"][0]["rotation"] = {0, 0, 0, 0};
+    const Scene scene = builder.import();
+    EXPECT_TRUE(hasWarning(scene, "/nodes/0/rotation: is the zero quaternion"));
+    expectPlace(drawnAt(scene, 0.5)[1], {2.0, 0.0, 0.0});
+}
+
 TEST(GltfAnimation, normalizedIntegersAreFractions) {
     Builder builder;
     animate<std::int16_t>(builder, 0, "rotation", "VEC4", {0, 0, 0, 32767, 0, 0, 32767, 0}, true);

@@ -84,11 +84,11 @@ TEST(GltfRepairs, anAttributeThatCannotBeReadIsLeftOutAlone) {
     EXPECT_THAT(mesh.colors, IsEmpty());
 }
 
-/// Two triangles, one of which refers to a missing vertex or to one without a finite position.
+/// Two triangles, one of which refers to a missing vertex, or to one without a finite position or too far.
 TEST(GltfRepairs, trianglesWithLostCornersAreLeftOut) {
-    for (const std::uint16_t lost : {std::uint16_t{4}, std::uint16_t{3}, std::uint16_t{0xffff}}) {
+    for (const std::uint16_t lost : {std::uint16_t{5}, std::uint16_t{3}, std::uint16_t{4}, std::uint16_t{0xffff}}) {
         Builder builder;
-        builder.attribute("POSITION", "VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0, INFINITY, 0, 0});
+        builder.attribute("POSITION", "VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0, INFINITY, 0, 0, 0, 0, 1.1e15f});
         builder.indices<std::uint16_t>({0, 1, lost, 0, 1, 2});
         const Scene scene = builder.import();
         EXPECT_THAT(scene.meshes.at(0).indices, SizeIs(3)) << lost;
@@ -117,6 +117,17 @@ TEST(GltfRepairs, whereTextureCoordinatesAreMissingColoursAreTheStandIn) {
     EXPECT_EQ(scene.meshes.at(0).texCoords.at(std::size_t(set)), (std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}));
     EXPECT_TRUE(
         hasWarning(scene, "/materials/0/pbrMetallicRoughness/baseColorTexture: needs TEXCOORD_0, which a mesh lacks"));
+}
+
+TEST(GltfRepairs, aNodeTooFarIsHiddenAlone) {
+    Builder builder;
+    builder.merge(R"({"scenes": [{"nodes": [0, 1]}],
+                      "nodes": [{"mesh": 0}, {"mesh": 0, "translation": [0, 1e20, 0]}]})");
+    const Scene scene = builder.import();
+    checkScene(scene);
+    EXPECT_TRUE(hasWarning(scene, "/nodes/1: its transform, with its ancestors', is not finite or leads more than "
+                                  "1e+15 m away; it is hidden with all below it"));
+    EXPECT_THAT(scene.nodes.at(0).instances, SizeIs(1));
 }
 
 TEST(GltfRepairs, urisAreReadInAnySpelling) {

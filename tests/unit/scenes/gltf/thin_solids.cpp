@@ -242,7 +242,7 @@ TEST(GltfThinSolids, aLineOfOneVertexDrawsNothing) {
 
 /// At such distances rounding moves corners, by 1/16 m at 1e6 m.
 TEST(GltfThinSolids, aSinglePointIsDrawnWhereverItLies) {
-    for (const float x : {0.0f, 1.0f, 1e6f, 3e38f}) {
+    for (const float x : {0.0f, 1.0f, 1e6f, float(kFarthestMetres)}) {
         const Mesh mesh = thin(0, {x, 0, 0}).import().meshes.at(0);
         ASSERT_EQ(solidsOf(mesh), 1u);
         glm::dvec3 least(std::numeric_limits<double>::infinity()), most(-least);

@@ -44,7 +44,7 @@ protected:
         return warning.substr(warning.starts_with(place) ? place.size() : 0);
     }
 
-    const TempFolder folder{};
+    const TempFolder folder;
 };
 
 inline double areaOf(const Scene& scene) {

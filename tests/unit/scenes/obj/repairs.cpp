@@ -101,6 +101,7 @@ TEST_F(ObjRepairs, oneBadFaceIsLeftOut) {
              {"f\n", "1986: 'f' has 0 of the 3 corners it needs"},
              {"l 1\n", "1986: 'l' has 1 of the 2 corners it needs"},
              {"v 1 2\nf 1 2 -1\n", "1986: 'v' has 2 of the 3 numbers it needs"},
+             {"v 1 1e16 0\nf 1 2 -1\n", "1986: the position lies more than 1e+15 m away"},
              {"v 1 nan 0\nf 1 2 -1\n", "1986: 'v' is given nan, which is not a finite number in single precision"},
              {"v 1 1,5 0\nf 1 2 -1\n", "1986: 'v' needs a number, not '1,5'"},
          }) {
