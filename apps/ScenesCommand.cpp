@@ -13,11 +13,9 @@ namespace {
 
 int listScenes() {
     fmt::print("{:<15} {:>9} {:>7} {:>10}  {}\n", "scene", "triangles", "lights", "materials", "what it is for");
-    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes()) {
-        const scenes::Scene scene = scenes::loadScene(std::string(builtin.name));
-        fmt::print("{:<15} {:>9} {:>7} {:>10}  {}\n", builtin.name, scenes::triangleCount(scene), scene.lights.size(),
-                   scene.materials.size(), builtin.purpose);
-    }
+    for (const scenes::BuiltinScene& builtin : scenes::builtinScenes())
+        fmt::print("{:<15} {:>9} {:>7} {:>10}  {}\n", builtin.name, builtin.triangles, builtin.lights,
+                   builtin.materials, builtin.purpose);
     return kGood;
 }
 

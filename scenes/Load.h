@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -74,6 +75,8 @@ struct BuiltinScene {
     Scene (*make)(const LoadOptions&, LoadLedger&);
     /// Upper bound of the memory to make it with its default number of lights and without assets. A test checks it.
     std::uint64_t bytes;
+    /// Counts with the default number of lights and without assets, for listing without making. A test checks them.
+    std::size_t triangles, lights, materials;
 };
 std::span<const BuiltinScene> builtinScenes();
 /// The built-in scene of a name, which takes precedence over a file of that name; null if there is none.

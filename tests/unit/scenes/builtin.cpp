@@ -71,6 +71,9 @@ void BuiltinScenes::expectSound() {
     EXPECT_EQ(scene.name, GetParam().name);
     EXPECT_FALSE(scene.cameras.empty());
     EXPECT_FALSE(scene.lights.empty());
+    EXPECT_EQ(triangleCount(scene), GetParam().triangles);
+    EXPECT_EQ(scene.lights.size(), GetParam().lights);
+    EXPECT_EQ(scene.materials.size(), GetParam().materials);
     EXPECT_TRUE(scene.warnings.empty());
     expectCamerasWithinReach(scene);
     expectAllUsed(scene);
