@@ -7,6 +7,7 @@
 
 #include "base/Error.h"
 #include "renderer/frame/LightRounds.h"
+#include "scenes/InUse.h"
 #include "validation/compare/ReferencePicture.h"
 
 namespace tessera::app {
@@ -32,7 +33,8 @@ std::string faultOf(const scenes::Scene& scene, frame::DebugView view, std::span
                     const std::string& cut) {
     std::size_t covered = 0, bad = 0;
     bool hasNaN = false;
-    bool isBlack = view == frame::DebugView::Final && !scene.lights.empty(); // without lights black is expected
+    // Black is expected without lights, and the scene's warnings name black materials.
+    bool isBlack = view == frame::DebugView::Final && !scene.lights.empty() && !scenes::isAllBlack(scene);
     for (std::size_t pixel = 0; pixel < rgba.size(); pixel += 4) {
         covered += rgba[pixel + 3] > 0.0f;
         bad += !(std::isfinite(rgba[pixel]) && std::isfinite(rgba[pixel + 1]) && std::isfinite(rgba[pixel + 2]));

@@ -14,6 +14,19 @@ std::vector<const Element*> chosen(const std::vector<Element>& elements, const s
     return result;
 }
 
+/// Whether the base colour is 0, and nothing else of the material reflects, transmits or emits light.
+bool isBlack(const Material& material) {
+    constexpr glm::vec3 kNothing(0.0f);
+    const MaterialModelInfo& model = infoOf(material.model);
+    const bool reflects =
+        model.highlight == Highlight::Tinted
+            ? material.specularColor != kNothing
+            : model.highlight == Highlight::Dielectric && (material.metallic > 0.0f || material.specularFactor > 0.0f);
+    const bool hasLayer = model.hasLayers && (material.clearcoat > 0.0f || material.sheenColor != kNothing);
+    return glm::vec3(material.baseColor) == kNothing && material.emissive == kNothing && !reflects && !hasLayer &&
+           !isIridescent(material) && !isTransparent(material) && subsurfaceOf(material, {}) == SubsurfaceMethod::None;
+}
+
 } // namespace
 
 bool isDrawn(const Scene& scene, const MeshInstance& instance) {
@@ -45,6 +58,13 @@ std::vector<const Material*> materialsInUse(const Scene& scene) {
 
 std::vector<const Mesh*> meshesInUse(const Scene& scene) {
     return chosen(scene.meshes, inUse(scene).meshes);
+}
+
+bool isAllBlack(const Scene& scene) {
+    const auto ofMaterial = [](const RestNumber& number) { return isOfMaterial(infoOf(number.property).owner); };
+    const std::vector<const Material*> materials = materialsInUse(scene);
+    return !materials.empty() && !scene.hook && std::ranges::none_of(scene.rig.numbers, ofMaterial) &&
+           std::ranges::all_of(materials, [](const Material* material) { return isBlack(*material); });
 }
 
 bool anyScatters(const Scene& scene) {

@@ -23,6 +23,10 @@ std::vector<const Material*> materialsInUse(const Scene& scene);
 /// The meshes in use, in the scene's order.
 std::vector<const Mesh*> meshesInUse(const Scene& scene);
 
+/// Whether the factors of all materials in use make them black under any light, whatever their textures: no clip or
+/// hook changes a material.
+bool isAllBlack(const Scene& scene);
+
 /// Whether any material has subsurface scattering; a request may change its method.
 bool anyScatters(const Scene& scene);
 

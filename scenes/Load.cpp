@@ -17,6 +17,7 @@
 #include "scenes/AreaLight.h"
 #include "scenes/Clips.h"
 #include "scenes/Defaults.h"
+#include "scenes/InUse.h"
 #include "scenes/Limits.h"
 #include "scenes/LoadLedger.h"
 #include "scenes/Pose.h"
@@ -145,6 +146,12 @@ void warnOfDarkAreas(Scene& scene) {
             fmt::format("{} lights have an area of 0 and stay dark, first {}; give them a size", count, first));
 }
 
+void warnOfBlackMaterials(Scene& scene) {
+    if (isAllBlack(scene))
+        scene.warnings.push_back("all surfaces are black: their base colour is 0, and they neither reflect nor emit "
+                                 "light; give their materials a base colour");
+}
+
 void requireVariant(const Scene& scene, const std::string& nameOrPath, const ImportOptions& importOptions) {
     if (!importOptions.variant || std::ranges::find(scene.variants, *importOptions.variant) != scene.variants.end())
         return;
@@ -255,6 +262,7 @@ Scene loadScene(const std::string& nameOrPath, const LoadOptions& options) {
         throw InputError(nameOrPath + ": " + error.what());
     }
     goOn(options);
+    warnOfBlackMaterials(scene);
     addDefaultCamera(scene, options.aspect);
     own.studioDegrees = chosenStudioDegrees(scene);
     if (options.environment && scene.environment) layAs(own, *scene.environment);

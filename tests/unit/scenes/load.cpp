@@ -7,6 +7,7 @@
 
 #include "base/Error.h"
 #include "scenes/Defaults.h"
+#include "scenes/InUse.h"
 #include "scenes/Limits.h"
 #include "scenes/builtin/bust/Bust.h"
 #include "tests/support/AssetsFolder.h"
@@ -225,6 +226,30 @@ TEST_F(LoadScene, aScannedHeadOfMarbleHasTheColourOfStoneAndNotOfSkin) {
     EXPECT_NE(marble.texture(TextureSlot::Normal).image, kNone);
     EXPECT_EQ(glm::vec3(skin.baseColor), glm::vec3(1.0f)) << "times the texture";
     EXPECT_EQ(glm::vec3(marble.baseColor), glm::vec3(builtin::kPolishedMarble));
+}
+
+TEST_F(LoadScene, materialsThatAreAllBlackUnderAnyLightAreNamedInOneLine) {
+    folder.write("black.obj", "mtllib black.mtl\nusemtl black\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const auto loaded = [&](const std::string& more) {
+        folder.write("black.mtl", "newmtl black\nKd 0 0 0\n" + more + "\nnewmtl unused\n");
+        return loadScene(in("black.obj"));
+    };
+    for (const char* black : {"illum 0", "illum 1"}) // unlit, matte
+        EXPECT_EQ(fmt::format("{}", fmt::join(loaded(black).warnings, "; ")),
+                  "all surfaces are black: their base colour is 0, and they neither reflect nor emit light; give their "
+                  "materials a base colour");
+    for (const char* visible : {"illum 2", "illum 1\nPm 1", "illum 1\nKe 0 0 1", "illum 1\nd 0.5"})
+        EXPECT_TRUE(loaded(visible).warnings.empty()) << visible;
+    const Scene scene = loaded("illum 1");
+    for (const auto& change :
+         std::initializer_list<void (*)(Material&)>{[](Material& material) { material.baseColor.z = 0.1f; },
+                                                    [](Material& material) { material.clearcoat = 1; },
+                                                    [](Material& material) { material.sheenColor.x = 1; }}) {
+        Scene changed = scene;
+        EXPECT_TRUE(isAllBlack(changed));
+        change(changed.materials[0]);
+        EXPECT_FALSE(isAllBlack(changed));
+    }
 }
 
 } // namespace
