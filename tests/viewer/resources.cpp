@@ -43,5 +43,23 @@ TEST_F(ViewerResources, aClickOnAResourceOfTheGraphShowsWhatItHolds) {
     EXPECT_TRUE(pictureIn(viewer, size) == before) << "Esc closes it";
 }
 
+TEST_F(ViewerResources, aClickOnAThumbnailShowsTheTexture) {
+    DrivenViewer viewer = open({"head"});
+    const glm::ivec2 size = viewer.waitForWhole(0);
+    makeRoom(viewer);
+    std::size_t mark = viewer.mark();
+    viewer.click(middlePixel());
+    viewer.waitFor("outlined ", mark);
+    viewer.moveTo(middlePixel());
+    const Shot before = pictureIn(viewer, size);
+    constexpr int kThumbnailX = 120;
+    mark = viewer.mark();
+    viewer.click({kThumbnailX, linesOf(viewer, Section::Materials).back()});
+    EXPECT_EQ(viewer.waitFor("captured ", mark), "captured bust normals: RGBA16 1024 x 1024");
+    viewer.moveTo(middlePixel());
+    viewer.pause(0.5);
+    EXPECT_GT(differingShare(pictureIn(viewer, size), before, 8), 0.2) << "a window lies over the picture";
+}
+
 } // namespace
 } // namespace tessera::test

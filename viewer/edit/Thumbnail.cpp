@@ -14,7 +14,9 @@ glm::vec4 componentsAt(const std::byte* texel, float white) {
     return glm::vec4(values[0], values[1], values[2], values[3]) / white;
 }
 
-glm::vec4 valueAt(const scenes::Image& image, int x, int y) {
+} // namespace
+
+glm::vec4 texelOf(const scenes::Image& image, int x, int y) {
     const std::size_t number = std::size_t(y) * std::size_t(image.width) + std::size_t(x);
     const std::byte* const texel = image.texels.data() + number * scenes::texelBytes(image.format);
     switch (image.format) {
@@ -25,10 +27,8 @@ glm::vec4 valueAt(const scenes::Image& image, int x, int y) {
     case scenes::TexelFormat::Rgba32Float:
         break;
     }
-    return glm::clamp(componentsAt<float>(texel, 1.0f), 0.0f, 1.0f);
+    return componentsAt<float>(texel, 1.0f);
 }
-
-} // namespace
 
 Thumbnail thumbnailOf(const scenes::Image& image, int mostPixels) {
     Thumbnail small;
@@ -46,7 +46,8 @@ Thumbnail thumbnailOf(const scenes::Image& image, int mostPixels) {
                 for (int column = 0; column < samples.x; ++column) {
                     const glm::dvec2 within = (glm::dvec2(column, row) + 0.5) / glm::dvec2(samples);
                     const glm::ivec2 texel(glm::floor((glm::dvec2(x, y) + within) * step));
-                    sum += valueAt(image, std::min(texel.x, size.x - 1), std::min(texel.y, size.y - 1));
+                    sum += glm::clamp(texelOf(image, std::min(texel.x, size.x - 1), std::min(texel.y, size.y - 1)),
+                                      0.0f, 1.0f);
                 }
             small.pixels.emplace_back(glm::round(255.0f * sum / float(samples.x * samples.y)));
         }

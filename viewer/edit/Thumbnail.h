@@ -7,6 +7,9 @@
 
 namespace tessera::viewer {
 
+/// A stored texel, of integer formats from 0 to 1.
+glm::vec4 texelOf(const scenes::Image& image, int x, int y);
+
 /// A small copy of an image, rows from the top, with its stored values.
 struct Thumbnail {
     glm::ivec2 sizePixels{0};

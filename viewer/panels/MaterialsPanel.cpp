@@ -144,11 +144,12 @@ bool surfaceRows(Material& material) {
     return changed;
 }
 
-void drawThumbnail(const scenes::Image& image, float sidePoints) {
+/// Returns whether it was clicked.
+bool drawThumbnail(const scenes::Image& image, float sidePoints) {
     constexpr int kPixels = 24;
     const Thumbnail small = thumbnailOf(image, kPixels);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
-    ImGui::Dummy({sidePoints, sidePoints});
+    const bool isClicked = ImGui::InvisibleButton("##thumbnail", {sidePoints, sidePoints});
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float step = sidePoints / kPixels;
     for (int y = 0; y < small.sizePixels.y; ++y)
@@ -158,10 +159,11 @@ void drawThumbnail(const scenes::Image& image, float sidePoints) {
             const ImVec2 to(std::floor(corner.x + step * float(x + 1)), std::floor(corner.y + step * float(y + 1)));
             list.AddRectFilled(from, to, IM_COL32(color.x, color.y, color.z, 255)); // opaque everywhere
         }
+    return isClicked;
 }
 
-/// The textures that scale values, each as a thumbnail with its name.
-void textureRows(const Material& material, const std::vector<scenes::Image>& images) {
+/// The textures that scale values, each as a thumbnail with its name. A click on the thumbnail shows the texture.
+void textureRows(const Material& material, const std::vector<scenes::Image>& images, ResourceView& resource) {
     const float side = 2.0f * ImGui::GetFrameHeight();
     for (const scenes::TextureSlotInfo& slot : scenes::kTextureSlots) {
         const scenes::TextureUse& use = material.texture(slot.slot);
@@ -171,9 +173,9 @@ void textureRows(const Material& material, const std::vector<scenes::Image>& ima
         std::string label(slot.name);
         std::ranges::replace(label, '_', ' ');
         row(shortened(label, labelWidth()).c_str(), fmt::format("The {}, which scales values above", slot.what));
-        drawThumbnail(image, side);
         const std::string name = image.name.empty() ? fmt::format("picture {}", use.image) : image.name;
-        tip(fmt::format("{}, {} x {} texels, {} bits a channel", name, image.width, image.height,
+        if (drawThumbnail(image, side)) resource.show(image, name);
+        tip(fmt::format("{}, {} x {} texels, {} bits a channel; a click shows it", name, image.width, image.height,
                         2 * scenes::texelBytes(image.format)));
         ImGui::SameLine();
         ImGui::BeginGroup();
@@ -228,7 +230,7 @@ void materialsPanel(State& state) {
     const auto index = std::size_t(state.selectedMaterial);
     Material edited = materials[index];
     if (materialRows(edited)) state.open->changeMaterial(index, std::move(edited), widgetGesture());
-    textureRows(materials[index], state.open->scene().images);
+    textureRows(materials[index], state.open->scene().images, state.resource);
 }
 
 } // namespace tessera::viewer

@@ -135,7 +135,8 @@ void drawResource(State& state, const Facts& facts, const PictureArea& area) {
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse |
                          ImGuiWindowFlags_NoFocusOnAppearing)) {
         const bool isRead = facts.resource && facts.resource->contents->name == view.name;
-        if (isRead && facts.picturesPerSecond) ImGui::TextDisabled("Of the last idle image (Space: pause)");
+        if (isRead && facts.picturesPerSecond && !view.image)
+            ImGui::TextDisabled("Of the last idle image (Space: pause)");
         if (!isRead) {
             paragraph("Read as soon as the image is idle.");
         } else if (const ResourceContents& contents = *facts.resource->contents; !contents.fault.empty()) {

@@ -5,8 +5,8 @@
 
 namespace tessera::viewer {
 
-/// Draws a window with the resource State::resource: a texture as an image, a buffer as numbers. Draws nothing without
-/// one.
+/// Draws a window with the resource State::resource: a texture or an image of the scene as an image, a buffer as
+/// numbers. Draws nothing without one.
 void drawResource(State& state, const Facts& facts, const PictureArea& area);
 
 } // namespace tessera::viewer

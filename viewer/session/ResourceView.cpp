@@ -8,6 +8,7 @@
 
 #include "base/Srgb.h"
 #include "renderer/graph/Access.h"
+#include "viewer/edit/Thumbnail.h"
 
 namespace tessera::viewer {
 namespace {
@@ -24,7 +25,33 @@ std::pair<int, int> shownComponents(const ResourceContents& contents, ResourceVi
     return {component, component + 1};
 }
 
+/// Copies the image as floats.
+ResourceContents contentsOf(const scenes::Image& image, const std::string& name) {
+    constexpr std::int64_t kMostTexels = std::int64_t(4096) * 4096; // a copy takes 16 bytes per texel
+    constexpr graph::Format kFormats[] = {graph::Format::Rgba8Unorm, graph::Format::Rgba16Unorm,
+                                          graph::Format::Rgba32Float};
+    ResourceContents contents;
+    contents.name = name;
+    contents.desc = graph::TextureDesc{kFormats[std::size_t(image.format)], image.width, image.height};
+    contents.sizeTexels = {image.width, image.height};
+    if (std::int64_t(image.width) * image.height > kMostTexels) {
+        contents.fault =
+            fmt::format("{} x {} texels are too many to show; 4096 x 4096 fit.", image.width, image.height);
+        return contents;
+    }
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) contents.texels.push_back(glm::floatBitsToUint(texelOf(image, x, y)));
+    return contents;
+}
+
 } // namespace
+
+void ResourceView::show(const scenes::Image& shown, std::string title) {
+    show(std::move(title));
+    image = std::make_shared<ResourceContents>(contentsOf(shown, name));
+    fitsRange = false;
+    isCurved = shown.format == scenes::TexelFormat::Rgba32Float; // integers are displayed as they are stored
+}
 
 double ResourceContents::number(std::size_t texel, int component) const {
     const std::uint32_t bits = texels[texel][component];

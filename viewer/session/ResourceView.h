@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,16 +9,20 @@
 #include <glm/glm.hpp>
 
 #include "renderer/graph/Resource.h"
+#include "scenes/Image.h"
 #include "viewer/session/Magnification.h"
 
 namespace tessera::viewer {
 
-/// Which resource of the render graph the window displays, and how.
+struct ResourceContents;
+
+/// Which resource of the render graph, or image of the scene, the window displays, and how.
 struct ResourceView {
     enum class Channels : std::uint8_t { All, Red, Green, Blue, Alpha };
     enum class Words : std::uint8_t { Unsigned, Float, Hexadecimal };
 
-    std::string name; ///< in the plan; empty: none
+    std::string name;                              ///< in the plan, or of the image; empty: none
+    std::shared_ptr<const ResourceContents> image; ///< contents of an image; null: a resource of the render graph
     int level = 0, layer = 0;
     Channels channels = Channels::All;
     bool fitsRange = true;            ///< black and white are those of rangeOf(),
@@ -31,9 +36,11 @@ struct ResourceView {
         *this = {};
         name = std::move(resource);
     }
+    /// Selects an image of the scene, whose stored values are displayed.
+    void show(const scenes::Image& shown, std::string title);
 };
 
-/// Contents of a resource of the render graph at the end of a frame.
+/// Contents of a resource of the render graph at the end of a frame, or of an image of the scene.
 struct ResourceContents {
     std::string name;  ///< in the plan
     std::string fault; ///< why the contents are unknown; empty: they are known

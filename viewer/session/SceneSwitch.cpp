@@ -127,6 +127,7 @@ std::unique_ptr<OpenScene> SceneSwitch::take(const std::function<void(const Open
     state_.listed.reset();
     state_.magnification = {};
     state_.pins.clear();
+    if (state_.resource.image) state_.resource = {};
     state_.renamed.reset();
     if (!state_.notice.outlivesLoad) state_.notice = {loadNote(scene->scene())};
     state_.shaderFaults.clear();

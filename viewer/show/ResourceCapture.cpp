@@ -73,7 +73,10 @@ bool ResourceCapture::update(Facts& facts, const State& state, Screen& screen, c
         return std::exchange(facts.resource, std::nullopt).has_value();
     }
     const Source source{view.name, view.level, view.layer, std::min(state.activeSide, wanted.sides - 1), wanted};
-    if (read_ != source) {
+    if (view.image) {
+        read_.reset();
+        if (std::exchange(contents_, view.image) != view.image) shown_.reset();
+    } else if (read_ != source) {
         awaitsRest_ = !isAtRest;
         if (isAtRest) awaitsRest_ = !read(screen, source, givesUp);
     }
@@ -121,8 +124,8 @@ void ResourceCapture::show(Facts& facts, const ResourceView& view) {
     facts.resource = Facts::Resource{};
     facts.resource->contents = contents_;
     if (!contents_->fault.empty() || !contents_->isTexture()) return;
-    NumberRange range = rangeOf(*contents_, view.channels);
-    if (!view.fitsRange) range = {double(view.least), double(view.most)};
+    const NumberRange range =
+        view.fitsRange ? rangeOf(*contents_, view.channels) : NumberRange{double(view.least), double(view.most)};
     const graph::TextureDesc desc{graph::Format::Rgba8Unorm, contents_->sizeTexels.x, contents_->sizeTexels.y};
     if (!picture_ || picture_->desc() != desc) {
         retired_ = std::move(picture_);

@@ -9,7 +9,8 @@
 
 namespace tessera::viewer {
 
-/// Reads the resource of the render graph that the window displays, when the image is idle, by an extra frame.
+/// Reads the resource of the render graph that the window displays, when the image is idle, by an extra frame. An image
+/// of the scene needs no reading.
 class ResourceCapture {
 public:
     /// Updates Facts::resource for the active side. Returns whether it changed. `givesUp` aborts the frame for pending
@@ -43,7 +44,7 @@ private:
 
     std::optional<Source> read_; ///< or failed
     std::optional<Shown> shown_; ///< settings of the displayed contents
-    std::shared_ptr<ResourceContents> contents_;
+    std::shared_ptr<const ResourceContents> contents_;
     std::unique_ptr<gpu::Texture> picture_;
     std::unique_ptr<gpu::Texture> retired_; ///< still used by the interface of this frame, which is already laid out
     bool awaitsRest_ = false;

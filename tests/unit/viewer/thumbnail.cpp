@@ -37,6 +37,8 @@ TEST(Thumbnail, isASmallCopyOfTheSameShapeInEveryFormat) {
     EXPECT_TRUE(thumbnailOf({}, 4).pixels.empty());
 }
 
+constexpr float kThumbnailX = 190.0f; ///< in a panel of PanelTest
+
 class TextureRows : public test::PanelTest {};
 
 TEST_F(TextureRows, nameEveryTextureOfTheMaterialAndItsSize) {
@@ -47,6 +49,13 @@ TEST_F(TextureRows, nameEveryTextureOfTheMaterialAndItsSize) {
     state.selectedMaterial = 0;
     const auto text = [&] { return textOf([&] { materialsPanel(state); }); };
     for (const char* word : {"base color", "halves.png", "8 x 4"}) EXPECT_THAT(text(), testing::HasSubstr(word));
+    // The thumbnail is the lowest item that a click changes.
+    for (float y = 2000.0f; state.resource.name.empty() && y > 0.0f; y -= 10.0f)
+        clickPanel({kThumbnailX, y}, [&] { materialsPanel(state); });
+    EXPECT_EQ(state.resource.name, "pictures/halves.png");
+    ASSERT_TRUE(state.resource.image);
+    EXPECT_EQ(state.resource.image->text(), "pictures/halves.png: RGBA8 8 x 4");
+    EXPECT_EQ(state.resource.image->texelText({7, 3}), "(7, 3): 1 1 1 1");
     state.selectedMaterial = 1;
     EXPECT_THAT(text(), testing::Not(testing::HasSubstr("halves.png")));
 }
