@@ -21,8 +21,8 @@ struct PictureHeader {
     std::vector<std::string> channelNames;
     int alphaChannel = -1;     ///< -1: none
     bool isAssociated = false; ///< colours are multiplied by alpha
-    /// Offset of the texels (data window) in the displayed image (display window), and its size; 0: only the texels are
-    /// displayed.
+    /// Offset of the texels (data window) in the displayed image (display window), and its size; both 0: only the
+    /// texels are displayed.
     std::int64_t left = 0, top = 0;
     int displayedWidth = 0, displayedHeight = 0;
     int orientation = 1; ///< as in Exif

@@ -99,16 +99,21 @@ Octahedron smaller(const Octahedron& source) {
     });
 }
 
-/// A sample of a lobe around +z.
-struct LobeSample {
-    glm::vec3 direction;
-    float weight;
-    int level;   ///< source level whose texel spacing matches that of the samples
-    float share; ///< weight of the next level
-};
+glm::vec3 filtered(const std::vector<Bordered>& sources, const std::vector<LobeSample>& samples, const glm::vec3& n) {
+    const glm::vec3 other = std::abs(n.z) < 0.9f ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
+    const glm::vec3 t = glm::normalize(glm::cross(other, n)), b = glm::cross(n, t);
+    glm::vec4 sum(0.0f);
+    for (const LobeSample& sample : samples) {
+        const glm::vec3 direction = sample.direction.x * t + sample.direction.y * b + sample.direction.z * n;
+        const glm::vec4 fine = sources[std::size_t(sample.level)].interpolated(direction);
+        const glm::vec4 coarse = sources[std::size_t(sample.level) + 1].interpolated(direction);
+        sum += sample.weight * (fine + sample.share * (coarse - fine));
+    }
+    return glm::vec3(sum);
+}
 
-/// Samples D's lobe with the normal as view direction (Karis 2013), with levels as in Krivanek and Colbert 2008,
-/// "Real-time Shading with Filtered Importance Sampling".
+} // namespace
+
 std::vector<LobeSample> lobeSamples(double alpha, int count, int sourceSide, int levels) {
     std::vector<LobeSample> samples;
     double weights = 0.0;
@@ -130,21 +135,6 @@ std::vector<LobeSample> lobeSamples(double alpha, int count, int sourceSide, int
     for (LobeSample& sample : samples) sample.weight = float(double(sample.weight) / weights);
     return samples;
 }
-
-glm::vec3 filtered(const std::vector<Bordered>& sources, const std::vector<LobeSample>& samples, const glm::vec3& n) {
-    const glm::vec3 other = std::abs(n.z) < 0.9f ? glm::vec3(0.0f, 0.0f, 1.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
-    const glm::vec3 t = glm::normalize(glm::cross(other, n)), b = glm::cross(n, t);
-    glm::vec4 sum(0.0f);
-    for (const LobeSample& sample : samples) {
-        const glm::vec3 direction = sample.direction.x * t + sample.direction.y * b + sample.direction.z * n;
-        const glm::vec4 fine = sources[std::size_t(sample.level)].interpolated(direction);
-        const glm::vec4 coarse = sources[std::size_t(sample.level) + 1].interpolated(direction);
-        sum += sample.weight * (fine + sample.share * (coarse - fine));
-    }
-    return glm::vec3(sum);
-}
-
-} // namespace
 
 int filteredHalvingsOf(const scenes::Image& map) {
     constexpr int kLeastSide = 128;

@@ -17,6 +17,19 @@ struct FilteredEnvironment {
     DividedOctahedron irradiance; ///< by surface normal; side ENVIRONMENT_IRRADIANCE_SIDE
 };
 
+/// A sample of a lobe around +z.
+struct LobeSample {
+    glm::vec3 direction;
+    float weight;
+    int level;   ///< source level whose texel spacing matches that of the samples
+    float share; ///< weight of the next level
+};
+
+/// Samples D's lobe with the normal as view direction (Karis 2013), with levels as in Krivanek and Colbert 2008,
+/// "Real-time Shading with Filtered Importance Sampling". `levels` source levels halve an octahedral map of
+/// `sourceSide` texels a side. Half a level is added, so that texels of neighbouring samples overlap.
+std::vector<LobeSample> lobeSamples(double alpha, int count, int sourceSide, int levels);
+
 /// log2 of ENVIRONMENT_MOST_SIDE / side of the octahedral map that a map is filtered from. The octahedral map has about
 /// as many texels as the map, but at least 128 along a side.
 int filteredHalvingsOf(const scenes::Image& map);

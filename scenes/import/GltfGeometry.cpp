@@ -278,7 +278,7 @@ void makeThin(Context& context, const std::string& place, int mode, std::vector<
     const std::vector<std::uint32_t> elements =
         thinElements(mode, std::move(corners), mesh.positionsOS, deforms.byTargets || deforms.byJoints);
     const std::size_t solids = elements.size() / (mode == kPoints ? 1 : kEnds);
-    if (solids > std::numeric_limits<std::uint32_t>::max() / kCornersOfSolid)
+    if (!canBeIndexed(solids))
         context.document.fail(place,
                               "draws {} points or lines, whose solids have more corners than 32-bit "
                               "indices can name; split the mesh",

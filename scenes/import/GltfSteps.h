@@ -1,5 +1,7 @@
 #pragma once
 #include <compare>
+#include <cstdint>
+#include <limits>
 
 #include "scenes/import/GltfContext.h"
 
@@ -106,6 +108,10 @@ inline constexpr double kLineWidthShare = 1.0 / 280.0;
 double pointLineWidths(std::size_t points);
 /// Corners of the triangles of one octahedron or prism, which both have eight triangles.
 inline constexpr std::size_t kCornersOfSolid = 24;
+/// Whether 32-bit indices can name the corners of so many solids, each of which becomes a vertex.
+constexpr bool canBeIndexed(std::size_t solids) {
+    return solids <= std::numeric_limits<std::uint32_t>::max() / kCornersOfSolid;
+}
 
 /// The points or segments of a primitive's corners in glTF modes 0 to 3: one vertex per point, two per line segment.
 /// Drops a list's incomplete last segment, and segments without length unless their ends may move. A loop of two

@@ -80,7 +80,7 @@ DecodedPicture decode(PictureInput& input, const PictureSource& source) {
     const DisplayWindow window{header.left, header.top, header.displayedWidth, header.displayedHeight};
     const bool isPlaced =
         window.left != 0 || window.top != 0 || window.width != image.width || window.height != image.height;
-    if (window.width > 0 && window.height > 0 && isPlaced) {
+    if (window.width > 0 && isPlaced) {
         PictureFormat format = source.format;
         format.maxTexelsAByte = 0; // the black border takes no bytes of the file
         try {

@@ -210,6 +210,17 @@ TEST_F(Attribution, choicesOfAPointSumToTheWhole) {
         EXPECT_EQ(expectSound(linesOf(scene, settings, Technique::TiledDeferred, {}, choose)), expected);
     }
 }
+/// In an image of one pixel every channel counts: without one of red, green and blue, the cross term would be off by
+/// about a third of the whole.
+TEST_F(Attribution, everyChannelOfTheFirstPixelCounts) {
+    scenes::Scene scene = sceneOf({});
+    scene.lights[0].falloff = scenes::Falloff::Attenuation;
+    scene.lights[0].attenuation = {0.0f, 0.0f, 1.0f};
+    frame::FrameSettings settings;
+    settings.sizePixels = {1, 1};
+    expectSound(
+        linesOf(scene, settings, Technique::Forward, {}, [](frame::FrameSettings& own) { own.rangeTolerance = 0.3; }));
+}
 TEST_F(AttributionSlow, causesThatAreSwitchedOnOneByOneSumToTheWhole) {
     expectSwitched(std::array{Switch{"environment", &Switches::environment}, Switch{"area", &Switches::area},
                               Switch{"noise", &Switches::size}, Switch{"subsurface", &Switches::skin}});

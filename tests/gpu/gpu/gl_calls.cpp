@@ -17,6 +17,8 @@ extern "C" {
 extern void (*glad_glMemoryBarrier)(unsigned);
 extern void (*glad_glGetIntegeri_v)(unsigned, unsigned, int*);
 extern void (*glad_glGetInteger64i_v)(unsigned, unsigned, std::int64_t*);
+extern void* (*glad_glFenceSync)(unsigned, unsigned);
+extern void (*glad_glDeleteSync)(void*);
 extern void (*glad_glGetNamedBufferParameteri64v)(unsigned, unsigned, std::int64_t*);
 }
 
@@ -123,6 +125,36 @@ TEST_F(GlCallsTest, constantsOfAllSizesAreAlignedApartAndThoseOfTheirDispatch) {
     EXPECT_GE(rounds, 3);
     memoryBarrier(graph::Barrier::TransferOrUpdate);
     EXPECT_EQ(numbers.downloadAs<std::uint32_t>(kCount), expected);
+}
+
+void* (*originalFenceSync)(unsigned, unsigned) = nullptr;
+void (*originalDeleteSync)(void*) = nullptr;
+int madeFences = 0, deletedFences = 0;
+
+/// A half that is left gets a fence, which is deleted before the half is reused or with the ring.
+TEST_F(GlCallsTest, everyFenceOfConstantsIsDeleted) {
+    originalFenceSync = glad_glFenceSync;
+    originalDeleteSync = glad_glDeleteSync;
+    glad_glFenceSync = [](unsigned condition, unsigned flags) {
+        ++madeFences;
+        return originalFenceSync(condition, flags);
+    };
+    glad_glDeleteSync = [](void* fence) {
+        deletedFences += fence != nullptr ? 1 : 0;
+        originalDeleteSync(fence);
+    };
+    const std::vector<std::byte> bytes(ConstantRing::kMostBytes);
+    for (const int left : {0, 1, 2, 3}) {
+        madeFences = deletedFences = 0;
+        {
+            ConstantRing ring;
+            for (int i = 0; madeFences < left && i < 1000; ++i) ring.bind(3, bytes);
+        }
+        EXPECT_EQ(madeFences, left);
+        EXPECT_EQ(deletedFences, left);
+    }
+    glad_glFenceSync = originalFenceSync;
+    glad_glDeleteSync = originalDeleteSync;
 }
 
 TEST_F(GlCallsTest, noConstantsAndMoreThanABlockHoldsAreRefused) {

@@ -270,6 +270,29 @@ TEST(EnvironmentFilter, irradianceByHarmonicsFallsWithTheirOrder) {
     EXPECT_LE(before, 1e-2); // where the sun is at the horizon
 }
 
+/// Constant and linear harmonics give a distant lamp of unit irradiance 1/4 + n.l / 2. A map of 1024 x 512 texels is
+/// not averaged, which would move a lamp by up to a quarter of a row and change its sum by up to 8e-4.
+TEST(EnvironmentFilter, irradianceOfTheLargestMapThatIsNotAveragedIsThatOfItsTexels) {
+    constexpr int kWidth = 1024, kHeight = 512, kCells = 4;
+    for (const glm::ivec2 texel : {glm::ivec2(300, 100), glm::ivec2(701, 256), glm::ivec2(12, 409)}) {
+        const scenes::Image lamp =
+            greyMap(kWidth, kHeight, [&](int x, int y) { return glm::ivec2(x, y) == texel ? 1e5 : 0.0; });
+        const double top = std::cos(pi * texel.y / kHeight), bottom = std::cos(pi * (texel.y + 1) / kHeight);
+        const double longitude = 2.0 * pi * ((texel.x + 0.5) / kWidth - 0.5), up = 0.5 * (top + bottom);
+        const glm::dvec3 towards =
+            glm::dvec3(std::sin(longitude), 0.0, -std::cos(longitude)) * std::sqrt(1.0 - up * up) +
+            glm::dvec3(0.0, up, 0.0);
+        const DividedOctahedron irradiance = irradianceOf(lamp, 1, kCells);
+        for (int y = 0; y <= kCells; ++y)
+            for (int x = 0; x <= kCells; ++x) {
+                const glm::dvec3 n = directionOf(DividedOctahedron::codeOfCorner(x, y, kCells));
+                const double own = double(irradiance.at(x, y).x) / (1e5 * 2.0 * pi / kWidth * (top - bottom));
+                ASSERT_NEAR(own, std::max(0.25 + 0.5 * glm::dot(n, towards), 0.0), 1e-5)
+                    << texel.x << ": " << x << ", " << y;
+            }
+    }
+}
+
 TEST(EnvironmentFilter, aMapOfMoreColumnsOrRowsThanNeededIsFilteredAsTheCoarserOne) {
     constexpr int kOrder = 4, kCells = 8;
     const auto light = [](int x, int y) { return (x * 7919 + y * 104729) % 1009; };

@@ -76,6 +76,32 @@ TEST(EnvironmentLevels, flattenALinearSlopeOfLightByTheMeanCosineOfTheirLobe) {
     expectSlope(filtered.irradiance, std::numbers::pi, 2.0 / 3.0, 1e-3);
 }
 
+/// At alpha 1 the light that a lobe reflects along the normal comes evenly from all directions, half of them below the
+/// surface. So each of n samples covers side^2 / n texels, and each level halves a side; half a level is added.
+TEST(EnvironmentLevels, sampleALobeOfAlpha1AtTheLevelOfItsDensity) {
+    struct Case {
+        int count, side, levels;
+        double level;
+    };
+    for (const Case& one : {Case{256, 32, 5, 1.5},
+                            {1024, 256, 8, 3.5},
+                            {32, 128, 7, 5.0},
+                            {1024, 16, 4, 0.0},
+                            {16, 64, 3, 2.0},
+                            {128, 64, 6, 3.0}}) {
+        const std::vector<LobeSample> samples = lobeSamples(1.0, one.count, one.side, one.levels);
+        ASSERT_EQ(samples.size(), std::size_t(one.count) / 2);
+        double weights = 0.0;
+        for (const LobeSample& sample : samples) {
+            EXPECT_NEAR(sample.level + double(sample.share), one.level, 1e-6) << one.count << " of " << one.side;
+            EXPECT_LE(sample.level, one.levels - 2); // the next level exists
+            EXPECT_NEAR(double(sample.weight), double(sample.direction.z) * 4.0 / one.count, 1e-6);
+            weights += double(sample.weight);
+        }
+        EXPECT_NEAR(weights, 1.0, 1e-6);
+    }
+}
+
 /// Small maps are filtered to smaller levels, with as many samples as those need.
 TEST(EnvironmentLevels, ofSmallMapsFlattenASlopeAsWell) {
     const FilteredEnvironment filtered = filteredSlopes(64, 32);

@@ -120,6 +120,8 @@ TEST(PicturePlacement, texelsOfAnExrLieWhereItsDisplayWindowShowsThem) {
     EXPECT_THAT(ledger.takeWarnings(),
                 ElementsAre("a.exr: its display window of 2000001x1 texels is too large; the 3x2 "
                             "texels of its data window are taken alone"));
+    for (const std::array<int, 4>& empty : {std::array{0, 0, 2, -1}, std::array{0, 0, -1, 1}})
+        EXPECT_THAT(refusalOf(exrIn(empty, 1.0f), "a.exr"), HasSubstr("cannot be decoded"));
     EXPECT_THAT(refusalOf(exrIn({0, 0, 9999, 9999}, 1.0f), "a.exr", 64 * kMiB), HasSubstr("needs 1.5 GiB"));
 }
 

@@ -74,6 +74,12 @@ TEST(GltfThinSolids, aPointBecomesAnOctahedronOfAStatedShareOfTheModel) {
     EXPECT_THAT(scene.warnings, IsEmpty());
 }
 
+TEST(GltfThinSolids, areAsManyAs32BitIndicesCanNameCornersOf) {
+    constexpr std::uint64_t kIndices = std::uint64_t(1) << 32, kMost = kIndices / 24; // eight triangles each
+    EXPECT_TRUE(canBeIndexed(kMost)) << 24 * kMost;
+    EXPECT_FALSE(canBeIndexed(kMost + 1)) << 24 * (kMost + 1);
+}
+
 TEST(GltfThinSolids, aSegmentBecomesAClosedPrismOfAStatedShareOfTheModel) {
     const std::vector<std::vector<float>> directions = {
         {2, 0, 0}, {0, 2, 0}, {0, 0, -2}, {1, 2, -1.5f}, {-2, 1e-6f, 0}};

@@ -91,6 +91,8 @@ struct Lit {
     double sunRadians = 0.0;
     double bodyRadiusMetres = 0.0; ///< of a surface that wraps light
     float opacity = 1.0f;          ///< of the plate, whose mask is cut at 1/2
+    double lean = 0.0;             ///< of the normals at both ends of the floor's diagonal, outwards
+    double roundingMetres = 0.0;   ///< of the floor's triangle
 };
 Occlusion::Answer shadowOf(const Lit& lit) {
     scenes::Scene scene = floorUnderPlate(lit.edge);
@@ -98,11 +100,18 @@ Occlusion::Answer shadowOf(const Lit& lit) {
     scene.materials[0].alphaCutoff = 0.5f;
     scene.materials[0].baseColor.a = lit.opacity;
     scene.meshes[0].colors.clear();
+    if (lit.lean > 0.0)
+        for (const std::size_t corner : {0u, 2u}) {
+            const glm::dvec3 outwards = glm::normalize(glm::dvec3(scene.meshes[1].positionsOS[corner]));
+            scene.meshes[1].normalsOS[corner] =
+                std::sin(lit.lean) * outwards + glm::dvec3(0.0, 0.0, std::cos(lit.lean));
+        }
     const CameraRays rays(scene.cameras[0], {1, 1});
     const Objects objects(scene, rays);
     Hit hit;
     hit.object = &objects.opaque()[0];
     hit.weights = {0.5, 0.0, 0.5};
+    hit.roundingMetres = lit.roundingMetres;
     ShiningLight sun;
     sun.light.type = scenes::LightType::Directional;
     sun.light.directionWS = -glm::normalize(lit.toLight);
@@ -125,6 +134,20 @@ TEST(ReferenceOcclusion, edgesAreUndecidedAsFarAsRoundingMovesThemAndNoFarther) 
         EXPECT_EQ(shadowOf({.edge = side * 1e-4}).share, side > 0.0 ? 0.0 : 1.0);
         EXPECT_TRUE(shadowOf({.edge = side * 1e-4, .bodyRadiusMetres = 100.0}).isUndecided);
         EXPECT_FALSE(shadowOf({.edge = side * 2e-3, .bodyRadiusMetres = 100.0}).isUndecided);
+    }
+}
+
+/// A point that softened terminators lift moves by twice the rounding of its triangle, far more than by other roundings
+/// here; one that is not lifted stays.
+TEST(ReferenceOcclusion, liftedPointsAreUndecidedAsFarAsTheirTriangleIsRounded) {
+    constexpr double kRounding = 0.01, kOthers = 1e-4;
+    for (const double side : {1.0, -1.0}) {
+        const auto isUndecided = [&](double metres, double lean) {
+            return shadowOf({.edge = side * metres, .lean = lean, .roundingMetres = kRounding}).isUndecided;
+        };
+        EXPECT_TRUE(isUndecided(2.0 * kRounding, 0.02));
+        EXPECT_FALSE(isUndecided(2.0 * kRounding + kOthers, 0.02));
+        EXPECT_FALSE(isUndecided(kOthers, 0.0));
     }
 }
 

@@ -1,5 +1,7 @@
 #include "validation/reference/Visibility.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "scenes/LookAt.h"
@@ -53,6 +55,35 @@ TEST_F(ReferenceVisibility, aTriangleTooLargeForNumbersIsNotHit) {
     for (int axis = 0; axis < 3; ++axis) scene_.nodes.front().parentFromNode[axis] *= 1e150;
     scene_.nodes.front().parentFromNode[3].z = -1e150;
     EXPECT_FALSE(middle());
+    const CameraRays rays(camera_, {1, 1});
+    EXPECT_FALSE(hitOf(Objects(scene_, rays).opaque().front(), 0, rays.through(0, 0)));
+}
+
+/// Far off the view axis a ray's direction is long: per metre of depth it goes sqrt(1 + 3^2) m.
+TEST_F(ReferenceVisibility, aDistantTriangleAtTheEdgeOfAWidePictureIsHit) {
+    constexpr double kSlope = 3.0, kDepthMetres = 100.0;
+    camera_.worldFromCamera = glm::dmat4(1.0);
+    camera_.fovYRadians = 2.0 * std::atan(0.5 * kSlope); // the right pixel of three looks 2/3 of 3 half heights aside
+    scene_.nodes.front().parentFromNode[3] = {kSlope * kDepthMetres - 0.5, -1.0, -kDepthMetres, 1.0};
+    const std::optional<Hit> hit = at(2, 0, {3, 1});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->depthMetres, kDepthMetres, 1e-11);
+    EXPECT_NEAR(hit->weights.y, 0.25, 1e-11);
+}
+
+/// Under parallel rays the anchor's ball holds the visible part of all objects. A corner whose coordinate of 1e6 m is
+/// rounded may move sideways by several roundings of 0.06 m, here into the image.
+TEST_F(ReferenceVisibility, theAnchorIncludesWhatRoundingMovesIntoThePicture) {
+    constexpr double kAsideMetres = 0.3;
+    camera_.worldFromCamera = glm::dmat4(1.0);
+    camera_.projection = scenes::Projection::Orthographic;
+    camera_.halfHeightMetres = 1.0;
+    camera_.farMetres = 2e6;
+    const auto x = float(camera_.halfHeightMetres + kAsideMetres);
+    scene_.meshes.front().positionsOS = {{x, 0.0f, -10.0f}, {x, 0.0f, -1e6f}, {x, 0.5f, -10.0f}};
+    const Anchor anchor = Objects(scene_, CameraRays(camera_, {1, 1})).anchor();
+    for (const double depth : {10.0, 1e6})
+        EXPECT_LE(glm::distance(anchor.centreRWS, {camera_.halfHeightMetres, 0.0, -depth}), anchor.radiusMetres);
 }
 
 TEST_F(ReferenceVisibility, aHitIsWhereTheRayMeetsTheTriangle) {
