@@ -1,6 +1,7 @@
 #include <span>
 
 #include "tests/image/ShadowTest.h"
+#include "tests/support/ShaderMutant.h"
 #include "validation/stress/Stress.h"
 
 namespace tessera {
@@ -166,6 +167,23 @@ TEST_F(ShadowMapsTest, aStrayTriangleFarAwayTakesNoShadowOfALampAndThoseOfASunAr
     renderer.render(Technique::Deferred, settings);
     EXPECT_NE(renderer.shadows().missing.find("the maps of 1 light err by more than the"), std::string::npos)
         << renderer.shadows().missing;
+}
+
+/// Mesa ends every loop after its first iteration once the loops of a shader have made 65,535, here in a loop ahead of
+/// the others. Pixels that need more iterations must be NaN. Drivers without that limit draw the same image.
+TEST_F(ShadowMapsTest, truncatedLoopsGiveNaNInsteadOfOtherLight) {
+    const ShaderMutant shaders("lib/shadow/shadow_map.glsl", "    int left = (kind",
+                               "    int rounds = 0;\n    while (rounds + kind < 70000) ++rounds;\n"
+                               "    if (rounds < 0) return 0.0;\n    int left = (kind");
+    scenes::Scene scene = ballUnderSun();
+    scene.lights[0].directionWS = glm::normalize(glm::dvec3(0.8, -1.0, -0.3));
+    makeOrthographic(scene.cameras[0], 0.8);
+    scene.lights[0].angularRadiusRadians = 0.05f;
+    const frame::FrameSettings settings = withShadows(ofSize(32, 18), ShadowFilter::Pcss);
+    const std::vector<float> wanted = drawn(scene, settings, Technique::Forward);
+    const std::vector<float> found = drawn(scene, settings, Technique::Forward, shaders.tree());
+    for (std::size_t i = 0; i < found.size(); ++i)
+        EXPECT_TRUE(found[i] == wanted[i] || std::isnan(found[i])) << i << ": " << found[i];
 }
 
 TEST_F(ShadowMapsTest, areAsRightInViewSpace) {

@@ -215,7 +215,7 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
             depths += texelFetch(shadowAtlas, withinFace(point, ivec2(floor(place))), 0).r;
         }
     }
-    if (i < SHADOW_SAMPLES) return CUT_LOOP;
+    if (i != SHADOW_SAMPLES) return CUT_LOOP;
     // Returns before a division by their number.
     if (hidden == 0.0) return 1.0;
     if (hidden == float(SHADOW_SAMPLES)) return 0.0;
@@ -223,7 +223,7 @@ float penumbraSeen(FacePoint point, float size, vec2 random)
     precise float seen = 0.0;
     for (i = 0; i < SHADOW_SAMPLES; ++i)
         seen += seenAt(point, point.texel + acrossDisk(point, penumbra * diskPlace(i, random)));
-    if (i < SHADOW_SAMPLES) return CUT_LOOP;
+    if (i != SHADOW_SAMPLES) return CUT_LOOP;
     return clamp(seen * (1.0 / float(SHADOW_SAMPLES)), 0.0, 1.0);
 }
 #endif
@@ -288,7 +288,7 @@ float mappedShadow(int index, int kind, vec3 placeLS, bool isFar, vec3 planeNorm
         share *= 1.0 - ownShare;
         if (share <= 0.0) left = 1;
     }
-    if (left > 0) return CUT_LOOP;
+    if (left != 0) return CUT_LOOP;
     // Outside all cascades no casters are known: lit.
     if (share >= 1.0) return 1.0;
     precise float seen = 1.0 - hidden / (1.0 - share);
