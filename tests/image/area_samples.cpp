@@ -298,6 +298,23 @@ TEST_F(AreaSamplesSlow, ofEveryModelAgreeWithTheIntegralOnABall) {
     expectTheIntegralOnBalls();
 }
 
+/// Many half vectors of a broad Blinn lobe face away from a grazing viewer, and such samples have no direction to a
+/// light. They must not add wrapped light, here of a sphere that fills most of the hemisphere.
+TEST_F(AreaSamples, withoutADirectionAddNoLight) {
+    scenes::Material wrapped = sampledMatte();
+    wrapped.model = scenes::MaterialModel::BlinnPhong;
+    wrapped.exponent = 0.0f;
+    wrapped.subsurface.method = scenes::SubsurfaceMethod::Wrap;
+    wrapped.subsurface.wrap = 1.0f;
+    wrapped.subsurface.bodyRadiusMetres = 1.0f;
+    scenes::Scene scene = pointOf(wrapped, 0.1);
+    engine::Renderer renderer(context(), scene);
+    const SampledMean shown =
+        seen(scene, renderer, areaLight(LightType::Sphere, {0.0, 0.0, 0.31}, {0.0, 0.0, -1.0}, 1.0f), 64);
+    expectWithinThree(shown, integralOf(scene));
+    EXPECT_LE(shown.standardError, 2e-3 * shown.mean);
+}
+
 /// Sampling omits the resources of LTC, and the reverse; scenes without area lights define neither.
 TEST_F(AreaSamples, andTransformedCosinesLeaveEachOtherOut) {
     const auto defineOf = [](const scenes::Scene& scene, const frame::FrameSettings& settings) {

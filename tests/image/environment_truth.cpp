@@ -165,7 +165,7 @@ std::vector<EvenCase> evenCases() {
         add(fmt::format("blinn_phong, p {}", exponent), MaterialModel::BlinnPhong, 0.0f).material.exponent = exponent;
     for (const auto& [alpha, ior] : {std::pair(0.05f, 1.5f),
                                      {0.05f, 0.75f},
-                                     {0.05f, 1.02f},
+                                     {0.05f, 1.005f},
                                      {0.3f, 0.4f},
                                      {0.3f, 0.7f},
                                      {0.3f, 0.9f},

@@ -171,27 +171,41 @@ TEST_F(GlassBehindTruth, throughALensShowsWhereTheRayMeetsTheWall) {
             }
 }
 
-/// A bar in front of the glass does not block rays that pass behind it.
+/// A bar in front of the glass does not block rays that pass behind it, viewed by parallel rays or through a lens.
 TEST_F(GlassBehindTruth, raysPassBehindWhatStandsBeforeIt) {
-    constexpr double kIor = 1.5, kBarMetres = 0.05; // half its width
-    const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
-    const Scene wall = rampWall();
-    Scene covered = coveredByGlass(wall, bareGlass(kIor), kBehindTiltRadians);
-    scenes::Node& bar = addNode(covered, unlit());
-    placeQuad(bar, 1.5, 4.0);
-    bar.parentFromNode[0] *= kBarMetres / 4.0;
+    constexpr double kIor = 2.4, kEyeMetres = 6.0, kBarZ = 1.5, kBarMetres = 0.05; // half its width
+    const glm::dvec3 normal(std::sin(kBehindTiltRadians), 0.0, std::cos(kBehindTiltRadians));
     const frame::FrameSettings settings = seeing(Refraction::OneSide);
-    const std::vector<float> plain = drawn(wall, settings), shown = drawn(covered, settings);
-    int crossing = 0;
-    expectPlaces(shown, plain, 0.0, 2e-3, [&](int x, int) -> std::optional<double> {
-        const double begin = metresOf(x);
-        const double place = begin - (kBehindWallMetres - begin * std::tan(kBehindTiltRadians)) * bend;
-        const auto isClear = [&](double metres) { return std::abs(metres) > kBarMetres + 1.5 * kBehindPixelMetres; };
-        if (place < -1.0 + kBehindPixelMetres || !isClear(begin) || !isClear(place)) return {};
-        crossing += begin > 0.0 && place < 0.0 ? 1 : 0;
-        return place;
-    });
-    EXPECT_GT(crossing, kBehindPixels);
+    for (const double perMetre : {0.0, 1.0 / kEyeMetres}) { // decrease along z of the image's half width
+        SCOPED_TRACE(perMetre);
+        const auto halfWidth = [&](double z) { return 1.0 - perMetre * z; };
+        Scene wall = rampWall();
+        if (perMetre > 0.0) wall.cameras[0].projection = scenes::Projection::Perspective;
+        wall.cameras[0].fovYRadians = 2.0 * std::atan(perMetre);
+        wall.cameras[0].worldFromCamera[3].z = kEyeMetres;
+        Scene covered = coveredByGlass(wall, bareGlass(kIor), kBehindTiltRadians);
+        scenes::Node& bar = addNode(covered, unlit());
+        placeQuad(bar, kBarZ, 4.0);
+        bar.parentFromNode[0] *= kBarMetres / 4.0;
+        const std::vector<float> plain = drawn(wall, settings), shown = drawn(covered, settings);
+        int crossing = 0;
+        expectPlaces(shown, plain, 0.0, 2e-3, [&](int x, int y) -> std::optional<double> {
+            const glm::dvec2 begin(metresOf(x), -metresOf(y));
+            const glm::dvec3 ray = glm::normalize(glm::dvec3(perMetre * begin, -1.0));
+            const glm::dvec3 onGlass = glm::dvec3(begin, 0.0) - begin.x * normal.x / glm::dot(ray, normal) * ray;
+            const glm::dvec3 along = *bentDirection(-ray, kIor, normal);
+            const glm::dvec3 onWall = onGlass - (onGlass.z + kBehindWallMetres) / along.z * along;
+            const glm::dvec2 place = glm::dvec2(onWall) / halfWidth(-kBehindWallMetres);
+            const auto isClear = [&](double metres) {
+                return std::abs(metres) > kBarMetres / halfWidth(kBarZ) + 1.5 * kBehindPixelMetres;
+            };
+            const double rim = std::max(std::abs(place.x), std::abs(place.y));
+            if (rim > 1.0 - kBehindPixelMetres || !isClear(begin.x) || !isClear(place.x)) return {};
+            crossing += begin.x > 0.0 && place.x < 0.0 ? 1 : 0;
+            return place.x;
+        });
+        EXPECT_GT(crossing, kBehindPixels);
+    }
 }
 
 /// A bar between glass and wall, its left edge nearer, leans so steeply that its depth changes by 0.07 m from pixel to

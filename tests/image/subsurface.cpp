@@ -206,6 +206,24 @@ TEST_SWEEP(Subsurface, aSlabLetsThroughAnExponentialOfTheWayAtEveryAngle) {
     }
 }
 
+/// Rays from the middle row of pixels meet the common edge of a large and a small triangle, one of which must count.
+TEST_F(Subsurface, aRayThroughTheEdgeOfTwoTrianglesLeavesTheBodyOnce) {
+    constexpr double kThickness = 0.03;
+    constexpr int kSide = 33;
+    scenes::Mesh slab;
+    scenes::builtin::appendQuad(slab, {-0.5, -0.5, 0.0}, {0.5, -0.5, 0.0}, {0.5, 0.5, 0.0}, {-0.5, 0.5, 0.0});
+    scenes::builtin::appendQuad(slab, {-0.5, 0.0, -kThickness}, {0.0, 0.003, -kThickness}, {0.5, 0.0, -kThickness},
+                                {0.0, -0.5, -kThickness});
+    scenes::Scene scene = bodyBeforeLights(slab, 0.1);
+    scene.lights.resize(1);
+    const frame::FrameSettings settings = withShadows(ofSize(kSide, kSide), frame::ShadowFilter::Traced);
+    const std::vector<float> radiance = drawn(scene, settings, Technique::Forward);
+    for (int x = 0; x < kSide; ++x)
+        EXPECT_NEAR(double(radiance[std::size_t(4 * (kSide / 2 * kSide + x))]), 3.0 * std::exp(-20.0 * kThickness),
+                    1e-3)
+            << x;
+}
+
 /// Transmitted light is added to all reflected light: a white body without absorption returns up to twice the light.
 TEST_F(Subsurface, lightThatPassesThroughIsAddedToAllThatIsReflected) {
     scenes::Mesh slab;

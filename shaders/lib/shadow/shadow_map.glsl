@@ -107,7 +107,7 @@ FacePoint facePoint(int firstTexel, vec4 shadow, vec3 positionRWS, vec3 facetNor
     precise vec2 rising = normal.xy / width * (isParallel ? 1.0 : position.z);
     vec2 across = abs(rising);
     point.ascent = rising / max(abs(distance), 1e-3 * max(max(across.x, across.y), 1e-30));
-    ivec2 toViewer = ivec2(-sign(normal.xy)) * (across.x > across.y ? ivec2(1, 0) : ivec2(0, 1));
+    ivec2 toViewer = across.x > across.y ? ivec2(-sign(normal.x), 0) : ivec2(0, -sign(normal.y));
     point.beside = max(across.x, across.y) > 5.0 * leastDistance ? toViewer : ivec2(0);
     precise float texelDepth = (isParallel ? scale : point.depth) * width.x / place.z;
     point.rise = texelDepth + (isParallel ? scale * roundingMetres + 4.8e-7

@@ -1,4 +1,6 @@
 // The lobe with two alphas: the shader's terms at fp32 compared with double, and with theory.
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "tests/gpu/shaders/LobeBench.h"
@@ -178,6 +180,24 @@ TEST_F(Anisotropy, aMicrofacetAlongTheNormalHasTheMeanAlpha) {
     EXPECT_NEAR(terms({c}).front().alphaAlong, 0.2f, 1e-7);
     c.h = {0.0f, 1e-7f, 1.0f};
     EXPECT_NEAR(terms({c}).front().alphaAlong, 0.8f, 1e-7);
+}
+
+/// From straight above all microfacets are visible: their slopes have the length sqrt(u / (1 - u)) in units of the
+/// alphas (Walter 2007, eq. 35), and turn by 2 pi v from the tangent.
+TEST_F(Anisotropy, sampledMicrofacetsSeenFromStraightAboveHaveTheSlopesOfTheirDistribution) {
+    std::vector<glm::vec4> inputs;
+    for (const glm::vec2 alpha : kAlphas)
+        for (const float u : {0.01f, 0.25f, 0.5f, 0.9f})
+            for (int i = 0; i < 16; ++i) inputs.push_back({u, float(i) / 16.0f, alpha});
+    test::ShaderBench bench;
+    const std::vector<glm::vec4> found = bench.run("test/visible_facets.comp", {}, inputs, inputs.size(), 1);
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const double u = double(inputs[i].x), turn = 2.0 * std::numbers::pi * double(inputs[i].y);
+        const double length = std::sqrt(u / (1.0 - u));
+        const glm::dvec3 half = glm::dvec3(found[i]) + glm::dvec3(0.0, 0.0, 1.0);
+        EXPECT_NEAR(half.x / half.z, double(inputs[i].z) * length * std::cos(turn), 1e-4 * length) << i;
+        EXPECT_NEAR(half.y / half.z, double(inputs[i].w) * length * std::sin(turn), 1e-4 * length) << i;
+    }
 }
 
 TEST_F(Anisotropy, reflectedEnergyNeverExceedsWhatArrives) {
