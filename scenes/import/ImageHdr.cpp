@@ -114,13 +114,11 @@ void undoHeader(const HdrHeader& header, Image& image) {
     }
 }
 
-/// Removes and returns the next word of a PFM header, and removes the one space after it; empty if the text ends or the
-/// word is longer than a number.
+/// Removes and returns the next word of a PFM header, and removes the one space after it; empty if the text ends.
 std::string_view takenWord(std::string_view& text) {
     constexpr std::string_view kSpaces = " \t\n\r";
-    constexpr std::size_t kMostCharacters = 64;
     text.remove_prefix(std::min(text.find_first_not_of(kSpaces), text.size()));
-    const std::size_t end = text.substr(0, kMostCharacters + 1).find_first_of(kSpaces);
+    const std::size_t end = text.find_first_of(kSpaces);
     const std::string_view word = end == text.npos ? std::string_view() : text.substr(0, end);
     text.remove_prefix(end == text.npos ? text.size() : end + 1);
     return word;

@@ -66,6 +66,22 @@ TEST(HostilePicture, scansOfAJpegAreBounded) {
                                               "of which takes as long as a picture); save it again");
 }
 
+TEST(HostilePicture, sidesAndTexelsAreBounded) {
+    const std::string name = "a";
+    const PictureFormat format{};
+    LoadLedger ledger;
+    const auto charge = [&](int width, int height) {
+        PictureSource{{}, name, format, ledger}.charge({width, height, 0, 0});
+    };
+    for (const auto& [width, height] : {std::pair(1048576, 256), {256, 1048576}, {16384, 16384}, {1, 1}})
+        EXPECT_NO_THROW(charge(width, height)) << width;
+    for (const auto& [width, height] : {std::pair(1048577, 1), {1, 1048577}, {16385, 16384}, {1048576, 257}})
+        EXPECT_THAT(inputErrorOf([&, w = width, h = height] { charge(w, h); }),
+                    HasSubstr("at most 1048576 a side and 268435456 in all can be used"));
+    for (const auto& [width, height] : {std::pair(0, 1), {1, 0}})
+        EXPECT_THAT(inputErrorOf([&, w = width, h = height] { charge(w, h); }), HasSubstr("the file is broken"));
+}
+
 TEST(HostilePicture, everyKindOfWebpIsChargedBeforeItsReaderReservesIt) {
     for (const char* seed : {"picture/lossy.webp", "picture/lossless.webp", "picture/canvas.webp"}) {
         std::string webp = bytesOfSeed(seed);

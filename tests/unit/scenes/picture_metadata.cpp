@@ -131,7 +131,8 @@ TEST(PictureMetadata, textsOfAPngAreNotKept) {
 
 TEST(PictureMetadata, theTransferFunctionOfAPngIsRead) {
     const std::string png = bytesOfSeed("picture/text.png");
-    const std::string isLight("\0\0\0\4gAMA\0\1\x86\xa0\x31\xe8\x96\x5f", 16);
+    const auto gamma = [](std::uint32_t parts) { return pngChunk("gAMA", numberText(parts, 4, ByteOrder::Big)); };
+    const std::string isLight = gamma(100000);
     const std::string isSrgb("\0\0\0\1sRGB\0\xae\xce\x1c\xe9", 13);
     const auto isLinearWith = [&](const std::string& chunks) {
         constexpr std::size_t kHeaderEnd = 33;
@@ -142,6 +143,8 @@ TEST(PictureMetadata, theTransferFunctionOfAPngIsRead) {
     EXPECT_FALSE(isLinearWith(""));
     EXPECT_TRUE(isLinearWith(isLight));
     EXPECT_FALSE(isLinearWith(isSrgb + isLight));
+    for (const std::uint32_t rounded : {99504u, 100496u}) EXPECT_TRUE(isLinearWith(gamma(rounded))) << rounded;
+    for (const std::uint32_t other : {99496u, 100504u}) EXPECT_FALSE(isLinearWith(gamma(other))) << other;
 }
 
 } // namespace

@@ -67,13 +67,14 @@ TEST(PicturePlacement, anExposureThatIsNoFactorIsTakenAsOne) {
 }
 
 TEST(PicturePlacement, radianceAsXyzBecomesRedGreenAndBlue) {
-    // X = Y = Z = 1 up to half a step; these are the sums of the rows of IEC 61966-2-1's matrix.
+    // X = Y = Z, so that these are the sums of the rows of IEC 61966-2-1's matrix.
     std::string file = hdrOf("-Y 1 +X 1", {0});
+    const float stored = storedTexels<float>(decoded(file, "sky.hdr"))[0];
     file.replace(file.find("rgbe"), 4, "xyze");
     const std::vector<float> texels = storedTexels<float>(decoded(file, "sky.hdr"));
-    EXPECT_NEAR(texels[0], 1.2048f, 0.01f);
-    EXPECT_NEAR(texels[1], 0.9484f, 0.01f);
-    EXPECT_NEAR(texels[2], 0.9087f, 0.01f);
+    EXPECT_NEAR(texels[0], 1.2048f * stored, 1e-6f);
+    EXPECT_NEAR(texels[1], 0.9484f * stored, 1e-6f);
+    EXPECT_NEAR(texels[2], 0.9087f * stored, 1e-6f);
 }
 
 TEST(PicturePlacement, aRadianceHeaderWithoutFormatOrWithLongLinesIsRead) {

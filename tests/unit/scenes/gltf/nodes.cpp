@@ -121,6 +121,18 @@ TEST(GltfCameras, orthographicIsImportedExactly) {
     EXPECT_EQ(glm::dvec3(camera.halfHeightMetres, camera.nearMetres, camera.farMetres), glm::dvec3(3.0, 0.0, 7.0));
 }
 
+/// 1e15 m is the farthest that is not refused (docs/numerics.md).
+TEST(GltfCameras, theFarthestLensIsImportedExactly) {
+    Builder builder = withNodes(R"([{"camera": 0}, {"camera": 1}])", "[0, 1]");
+    builder.merge(R"({"cameras": [
+        {"type": "perspective", "perspective": {"yfov": 1, "znear": 1e15}},
+        {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": -1e15, "znear": 1e15, "zfar": 2e15}}]})");
+    const Scene scene = builder.import();
+    EXPECT_THAT(scene.warnings, IsEmpty());
+    for (const Camera& camera : scene.cameras) EXPECT_EQ(camera.nearMetres, 1e15);
+    EXPECT_EQ(scene.cameras.at(1).halfHeightMetres, 1e15);
+}
+
 TEST(GltfCameras, worldFromCameraIsRigid) {
     Builder builder = withNodes(R"([{"scale": [-1, 2, 0.5], "rotation": [0.2, 0.4, 0.1, 0.9], "children": [1]},
                                     {"camera": 0, "rotation": [0.5, 0.1, 0.3, 0.7]}])");

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "validation/reference/LookupTolerance.h"
+
 namespace tessera::reference {
 namespace {
 
@@ -74,6 +76,23 @@ TEST(ReferenceFiltering, theLevelIsTheLogarithmOfTheLongerSideInTexels) {
     EXPECT_NEAR(finestLevelOf(footprint, {16, 16}), 3.0 + std::log2(std::cos(turn)), 1e-12);
     EXPECT_NEAR(levelOf({{0, 0}, {0.25, 0}, {0, 0.25}}, {4, 64}), 4.0, 1e-12);
     EXPECT_EQ(levelOf({}, {16, 16}), kMagnified);
+}
+
+/// A driver may take the finest level that OpenGL allows, and one level for a block of 2x2 pixels, over which the
+/// footprint grows by twice its relative change.
+TEST(ReferenceFiltering, theLevelMayBeTheFinestOneAndThatOfANeighbour) {
+    const double turn = 0.4, change = 1e-4;
+    const Footprint footprint{{0, 0}, 0.25 * glm::dvec2(std::cos(turn), std::sin(turn)), {}};
+    const Image image = grey(16, 16, [](int, int) { return 0; });
+    const Pyramid pyramid(image, Transfer::Linear, true);
+    const auto tolerance = [&](double perspective) {
+        Hit hit;
+        hit.perspective = perspective;
+        return lookupTolerance(Filtering::Hardware, {}, footprint, pyramid, hit);
+    };
+    EXPECT_NEAR(tolerance(0.0).finer - tolerance(0.0).coarser, -std::log2(std::cos(turn)), 1e-12);
+    EXPECT_NEAR(tolerance(change).finer - tolerance(0.0).finer, std::log2(1.0 + 2.0 * change), 1e-7);
+    EXPECT_NEAR(tolerance(change).coarser - tolerance(0.0).coarser, std::log2(1.0 + 2.0 * change), 1e-7);
 }
 
 /// The levels that are read, and their weights: all levels of a checkerboard but the first are uniform.

@@ -10,6 +10,7 @@
 #include "renderer/frame/LightRange.h"
 #include "tests/image/Textbook.h"
 #include "tests/support/AreaLights.h"
+#include "validation/reference/LightFace.h"
 
 namespace tessera::reference {
 namespace {
@@ -91,6 +92,22 @@ TEST(ReferenceLight, aConeClosesFromInnerToOuterAndAClosedOneLightsNothing) {
     EXPECT_EQ(at(0.61), 0.0);
     light.innerConeRadians = light.outerConeRadians = 0.0f;
     EXPECT_EQ(at(0.0), 0.0);
+}
+
+/// docs/numerics.md, "Clamps and limits".
+TEST(ReferenceLight, nearAndBrightLightsAndNarrowConesAreClampedAsTheDefinitionSays) {
+    EXPECT_EQ(shining(candela(3e38f, {0, 0, 0})).color.r, 1e30);
+    Light light = candela(3.0f, {0, 0, 0});
+    light.attenuation = {0, 0, 1};
+    for (const Falloff falloff : {Falloff::InverseSquare, Falloff::Attenuation}) {
+        light.falloff = falloff;
+        EXPECT_NEAR(incidentAt(shining(light), {0, 0.009, 0}).irradiance.r, 3.0 / 1e-4, 1e-8);
+    }
+    light = candela(1.0f, {0, 0, 0});
+    light.type = LightType::Spot;
+    light.innerConeRadians = light.outerConeRadians = 0.3f;
+    const double cosine = std::cos(double(0.3f)) + 0.5 * 0.001; // half open
+    EXPECT_NEAR(incidentAt(shining(light), {std::sqrt(1.0 - cosine * cosine), 0.0, -cosine}).irradiance.r, 0.25, 1e-12);
 }
 
 TEST(ReferenceLight, extremeLightsNeverSendNaNOrInfinity) {
@@ -183,6 +200,24 @@ TEST(ReferenceLight, anAreaLightsRangeIsItsOwnOrWhereItsIrradianceIsBelowTheTole
         EXPECT_NEAR(std::numbers::pi * std::pow(scenes::shadowRadiusMetres(light), 2), area, 1e-6);
         light.rangeMetres = 7.0f;
         EXPECT_EQ(rangeOf(light, 3.0, kTolerance), 7.0);
+    }
+}
+
+/// A thin cut along the longest chord of a face takes the chord times its width of the area.
+TEST(ReferenceLight, aThinCutOfAFaceTakesTheLongestChordOfItsArea) {
+    constexpr double kMetres = 1e-3, kLean = 0.5;
+    for (const LightType type : test::kAreaTypes) {
+        SCOPED_TRACE(scenes::infoOf(type).name);
+        const Light light = areaLight(type);
+        const LightFace face(light, {0, 0, 1}, double(light.radiusMetres));
+        const bool isSquare = type == LightType::Rectangle || type == LightType::Polygon;
+        const double chord = isSquare ? 2.0 * std::sqrt(2.0) : 2.0 * double(light.radiusMetres);
+        const double area = type == LightType::Tube ? std::numbers::pi * 0.25 : 4.0;
+        EXPECT_NEAR(face.shareOfCut(kMetres, {0, 1, 0}), chord * kMetres / area, 1e-9);
+        EXPECT_EQ(face.shareOfCut(10.0, {0, 1, 0}), 1.0);
+        if (!scenes::infoOf(type).isFlat) continue;
+        const glm::dvec3 leaning(0.0, std::sin(kLean), std::cos(kLean)); // cuts the plane in a wider strip
+        EXPECT_NEAR(face.shareOfCut(kMetres, leaning), chord * kMetres / std::sin(kLean) / area, 1e-9);
     }
 }
 

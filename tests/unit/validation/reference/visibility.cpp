@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "renderer/frame/DepthInterval.h"
 #include "scenes/LookAt.h"
 #include "tests/unit/scenes/TinyScene.h"
 #include "validation/culling/PixelPositions.h"
@@ -149,6 +150,29 @@ TEST_F(ReferenceVisibility, changesToTheNextPixelsAreDerivativesOfTheWeights) {
         const double change = glm::length(right->weightsDx - hit->weightsDx) / scale;
         EXPECT_LE(change, 2.0 * hit->perspective * 1.01 + 1e-12);
     }
+}
+
+/// A small triangle 100 m ahead, once as it is and once with its node 1e6 m aside, whose rounding widens the product's
+/// range of depths. The near plane cuts that range, so that its middle moves.
+TEST_F(ReferenceVisibility, theProductsOriginIsAsNearToTheAnchorAsItSays) {
+    camera_.worldFromCamera = glm::dmat4(1.0);
+    camera_.nearMetres = 99.999;
+    camera_.farMetres = 500.0;
+    scene_.nodes.front().parentFromNode[3].z = -100.0;
+    for (const auto projection : {scenes::Projection::Perspective, scenes::Projection::Orthographic})
+        for (const float aside : {0.0f, 1e6f}) {
+            camera_.projection = projection;
+            scene_.nodes.front().parentFromNode[3].x = aside;
+            scene_.meshes.front().positionsOS = {
+                {-aside, 0.0f, 0.0f}, {0.125f - aside, 0.0f, 0.0f}, {-aside, 0.25f, 0.0f}};
+            const CameraRays rays(camera_, {1, 1});
+            const Anchor anchor = Objects(scene_, rays).anchor();
+            const double origin =
+                frame::depthInterval(camera_, rays.halfExtent(), frame::surfaceBounds(scene_)).originMetres;
+            EXPECT_GT(origin, camera_.nearMetres + 1e-7 * double(aside));
+            EXPECT_GT(anchor.radiusMetres, 0.0);
+            EXPECT_LE(glm::distance(anchor.centreRWS, origin * rays.forward()), anchor.otherOriginMetres) << aside;
+        }
 }
 
 TEST_F(ReferenceVisibility, onlySurfacesBetweenNearAndFarPlaneAreVisible) {
