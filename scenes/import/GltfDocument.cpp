@@ -147,7 +147,10 @@ Container readContainer(const std::filesystem::path& file, LoadLedger& ledger) {
     constexpr std::string_view kBeginnings = "{/"; // '/' begins a comment, which is repaired
     if (first == std::string::npos || kBeginnings.find(container.json[first]) == kBeginnings.npos)
         throw InputError(fmt::format(
-            "{}: is neither glTF JSON (begins with '{{') nor glb (begins with 'glTF'); export the model again", name));
+            "{}: is neither glTF JSON (begins with '{{') nor glb (begins with 'glTF'); {}", name,
+            container.json.starts_with("version https://git-lfs") ? "it names a file of Git LFS: run git lfs pull"
+            : first != std::string::npos && container.json[first] == '<' ? "it is a web page: download the file itself"
+                                                                         : "export the model again"));
     return container;
 }
 

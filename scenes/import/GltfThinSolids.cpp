@@ -279,15 +279,11 @@ void sizeThinSolids(Scene& scene, const std::map<int, int>& thinModes) {
         std::ranges::copy(rest.positionsOS, drawn.positionsOS.begin());
         std::ranges::copy(rest.normalsOS, drawn.normalsOS.begin());
     }
-    const auto isPoints = [](const auto& entry) { return entry.second == kPoints; };
-    const bool hasPoints = std::ranges::any_of(thinModes, isPoints);
-    const bool hasLines = !std::ranges::all_of(thinModes, isPoints);
-    scene.notes.push_back(fmt::format(
-        "its {} are drawn as thin solids; lines are {:.2g} % of the model's longest side wide, points {:.2g} %",
-        !hasLines   ? "points"
-        : hasPoints ? "points and lines"
-                    : "lines",
-        100.0 * kLineWidthShare, 100.0 * kLineWidthShare * pointWidths));
+    for (const bool arePoints : {false, true})
+        if (std::ranges::any_of(thinModes, [&](const auto& entry) { return (entry.second == kPoints) == arePoints; }))
+            scene.notes.push_back(
+                fmt::format("its {} are drawn as thin solids, {:.2g} % of the model's longest side wide",
+                            arePoints ? "points" : "lines", 100.0 * kLineWidthShare * (arePoints ? pointWidths : 1.0)));
 }
 
 std::vector<std::uint32_t> trianglesOf(int mode, std::vector<std::uint32_t> corners) {

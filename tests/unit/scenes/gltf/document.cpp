@@ -74,6 +74,8 @@ TEST(GltfDocument, documentsThatAreNoGltfAreRefused) {
     for (const auto& [text, error] :
          {std::pair("", "model.gltf: the file is empty; export the model again"),
           {"solid cube", "is neither glTF JSON"},
+          {"<!DOCTYPE html>", "it is a web page: download the file itself"},
+          {"version https://git-lfs.github.com/spec/v1", "it names a file of Git LFS: run git lfs pull"},
           {R"({"asset": )", "is not JSON: parse error at line 1"},
           {"{}", "/asset: is missing"},
           {R"({"asset": {"version": "1.0"}})", "/asset/version: is '1.0', but only glTF 2.0"},

@@ -150,16 +150,15 @@ TEST(GltfThinSolids, pointsOfManyAreSmallerThanThoseOfFew) {
     EXPECT_NEAR(2.0 * glm::length(cornerOS(scene.meshes.at(0), 0)), 31.0 / 96.0, kRoundedLength);
 }
 
-TEST(GltfThinSolids, oneLineSaysThatTheyAreDrawn) {
+TEST(GltfThinSolids, aLineForEachKindReportsThem) {
     Builder builder = thin(1);
     for (const int mode : {0, 3, 0}) {
         builder.json["meshes"][0]["primitives"].push_back(Json::parse(R"({"attributes": {"POSITION": 0}})"));
         builder.json["meshes"][0]["primitives"].back()["mode"] = mode;
     }
-    EXPECT_THAT(
-        builder.import().notes,
-        ElementsAre("its points and lines are drawn as thin solids; lines are 0.36 % of the model's longest side "
-                    "wide, points 2.9 %"));
+    EXPECT_THAT(builder.import().notes,
+                ElementsAre("its lines are drawn as thin solids, 0.36 % of the model's longest side wide",
+                            "its points are drawn as thin solids, 2.9 % of the model's longest side wide"));
     EXPECT_THAT(thin(0).import().notes, ElementsAre(HasSubstr("its points are drawn")));
     EXPECT_THAT(thin(2).import().notes, ElementsAre(HasSubstr("its lines are drawn")));
 }
