@@ -170,6 +170,7 @@ TEST_F(GlassBehindSlow, mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsB
     engine::Renderer renderer(context(), scene);
     frame::FrameSettings settings = withoutShadows(ofSize(96, 54));
     settings.environment.light = EnvironmentLight::Sampled;
+    settings.refraction = Refraction::OneSide; // so that the reference too ignores the far sides of bodies
     const Picture truth = strictReference(scene, settings).picture;
     const auto drawnWith = [&](Refraction refraction) {
         settings.refraction = refraction;
@@ -200,7 +201,7 @@ TEST_F(GlassBehindSlow, mostOfTheSceneGlassIsNearerToTheReferenceWithWhatStandsB
                "behind; relMSE {:.2f} and {:.2f}\n",
                errorsAlone.size(), medianAlone, medianBehind, squaresAlone / count, squaresBehind / count);
     EXPECT_GT(count, 100.0);
-    EXPECT_LT(medianBehind, 0.5 * medianAlone); // measured 0.055 and 0.23
+    EXPECT_LT(medianBehind, 0.5 * medianAlone); // measured 0.059 and 0.175
 }
 
 } // namespace

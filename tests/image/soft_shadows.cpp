@@ -291,5 +291,23 @@ TEST_SWEEP(SoftShadows, ofAPictureAreWithinTheirNoiseOfTheReference) {
     }
 }
 
+/// The error of transformed cosines has no tolerance. It exceeds the noise of many rays, and must not fail as noise.
+TEST_F(SoftShadows, areNotJudgedWithTheErrorOfAreaLights) {
+    const scenes::Scene scene = scenes::loadScene("studio");
+    engine::Renderer renderer(context(), scene);
+    validation::CompareRequest request;
+    request.techniques = {Technique::Forward};
+    request.against = validation::Reference{};
+    request.settings.sizePixels = {64, 36};
+    request.settings.shadowSamples = 64;
+    const validation::CompareRecord record =
+        validation::compareTechniques(renderer, context().capabilities(), request).record;
+    EXPECT_TRUE(record.ok()) << validation::compareTable(record);
+    ASSERT_TRUE(record.pairs[0].shadows);
+    EXPECT_GT(record.pairs[0].shadows->noise, 1.5);
+    EXPECT_FALSE(record.pairs[0].shadows->mostNoise);
+    EXPECT_FALSE(record.pairs[0].tolerance.relMse);
+}
+
 } // namespace
 } // namespace tessera

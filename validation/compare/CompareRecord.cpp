@@ -39,8 +39,12 @@ Json reasons(const Json& record, const ErrorFigures& figures) {
 }
 
 Json shadowJson(const ShadowFigures& figures) {
-    return {{"undecided", figures.undecided}, {"noisyPixels", figures.noisyPixels}, {"noise", figures.noise},
-            {"mostNoise", figures.mostNoise}, {"ofReference", figures.ofReference}, {"bias", figures.bias},
+    return {{"undecided", figures.undecided},
+            {"noisyPixels", figures.noisyPixels},
+            {"noise", figures.noise},
+            {"mostNoise", figureJson(figures.mostNoise)},
+            {"ofReference", figures.ofReference},
+            {"bias", figures.bias},
             {"biasNoise", figures.biasNoise}};
 }
 

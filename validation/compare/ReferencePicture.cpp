@@ -282,7 +282,7 @@ Tolerance referenceTolerance(const scenes::Scene& scene, const frame::FrameSetti
         tolerance.bias = std::max(tolerance.bias.value(), 5e-4);
         tolerance.reason +=
             "; what rough glass lets pass is interpolated in a table of lobes, to 4e-4 of the light; where "
-            "less than a tenth passes, errors of its pixels count in parts of a tenth";
+            "less than an eighth passes, errors of its pixels count in parts of an eighth";
     }
     const auto passesByTwoAlphas = [](const scenes::Material& material) {
         return scenes::isTransmissive(material) && scenes::isAnisotropic(material);

@@ -382,6 +382,8 @@ CompareResult compareTechniques(engine::Renderer& renderer, const gpu::Capabilit
         if (truth.reference && hasTracedShadows(renderer.scene(), requested.settings) &&
             !isPacked(packingOf(requested.technique, requested.settings.layout))) {
             pair.shadows = truth.reference->shadowFigures(picture.picture, own.excluded);
+            // The noise contains every other error, such as that of area lights, so it is judged only if they are.
+            if (!tolerance.relMse) pair.shadows->mostNoise.reset();
             if (!request.tolerance)
                 for (std::string& missed : missedByShadows(*pair.shadows, longestSpan(renderer.scene())))
                     pair.verdict.missed.push_back(std::move(missed));

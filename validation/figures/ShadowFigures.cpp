@@ -22,10 +22,11 @@ std::vector<std::string> missedByShadows(const ShadowFigures& figures, const std
             fmt::format("rounding decides the shadows of {:.3g} % of the pixels, at most 5 % may be so; a triangle or "
                         "light far longer or farther away than others takes their digits{}",
                         100.0 * figures.undecided, longest.empty() ? "" : ", farthest " + longest));
-    if (!(figures.noise <= figures.mostNoise))
+    if (!figures.mostNoise) return missed;
+    if (!(figures.noise <= *figures.mostNoise))
         missed.push_back(fmt::format("soft shadows have {:.3g} times the noise of independent rays, at most {:.3g} is "
                                      "required",
-                                     figures.noise, figures.mostNoise));
+                                     figures.noise, *figures.mostNoise));
     const double mostBias = kReferenceBias + kShadowNoises * figures.biasNoise;
     if (!(std::abs(figures.bias) <= mostBias))
         missed.push_back(fmt::format("bias (magnitude) of soft shadows is {:.3g}, at most {:.3g} is required",
@@ -37,10 +38,12 @@ std::string shadowText(const ShadowFigures& figures) {
     std::string text =
         fmt::format("{} of the pixels are undecided, where rounding hides a light", shareText(figures.undecided));
     if (figures.noisyPixels > 0)
-        text += fmt::format("; {} see part of one, with {:.2g} times the noise of independent rays, bias {}; the "
+        text += fmt::format("; {} see part of one, with {:.2g} times the noise of independent rays{}, bias {}; the "
                             "reference's own error is "
                             "{:.2g} of that",
-                            figures.noisyPixels, figures.noise, figureText(figures.bias), figures.ofReference);
+                            figures.noisyPixels, figures.noise,
+                            figures.mostNoise ? "" : " (other errors included, so not judged)",
+                            figureText(figures.bias), figures.ofReference);
     return text;
 }
 

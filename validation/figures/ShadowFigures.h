@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,10 @@ namespace tessera::validation {
 struct ShadowFigures {
     double undecided = 0.0; ///< fraction of the compared pixels where rounding decides whether a light is hidden
     std::size_t noisyPixels = 0;
-    double noise = 0.0;       ///< RMS error of the noisy pixels over that of as many independent rays
-    double mostNoise = 1.0;   ///< limit of `noise`: sqrt(1 + five standard errors of its square)
+    double noise = 0.0; ///< RMS error of the noisy pixels over that of as many independent rays
+    /// Limit of `noise`: sqrt(1 + five standard errors of its square). Unset where the image's other errors, which
+    /// `noise` and `bias` contain, have no tolerance: then neither is judged.
+    std::optional<double> mostNoise = 1.0;
     double ofReference = 0.0; ///< the reference's RMS error over the image's, from the difference of its halves
     double bias = 0.0;        ///< (mean a - mean b) / mean b of the sum of channels
     double biasNoise = 0.0;   ///< standard error of bias with independent rays
@@ -22,8 +25,8 @@ struct ShadowFigures {
 inline constexpr double kShadowNoises = 5.0;
 
 /// Failed checks, one sentence each: over 5 % of the pixels undecided; more noise than independent rays leave; a bias
-/// beyond a thousandth (for the reference's own 1024 rays) plus five standard errors. `longest` names the part of the
-/// scene that needs most digits; it may be empty.
+/// beyond a thousandth (for the reference's own 1024 rays) plus five standard errors. Without mostNoise only the first
+/// is checked. `longest` names the part of the scene that needs most digits; it may be empty.
 std::vector<std::string> missedByShadows(const ShadowFigures& figures, const std::string& longest = {});
 
 /// One line for a terminal.

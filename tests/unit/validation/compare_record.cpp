@@ -246,6 +246,14 @@ TEST(CompareRecord, reportsNoiseAndOfUndecidedPixelsOfShadows) {
     EXPECT_EQ(missedWith(&ShadowFigures::noise, 1.11), 1u);
     EXPECT_EQ(missedWith(&ShadowFigures::noise, std::nan("")), 1u);
     EXPECT_EQ(missedWith(&ShadowFigures::bias, -2.6e-3), 1u);
+    // Without a tolerance for the other errors neither noise nor bias is judged.
+    right.mostNoise.reset();
+    EXPECT_EQ(missedWith(&ShadowFigures::undecided, 0.051), 1u);
+    EXPECT_EQ(missedWith(&ShadowFigures::noise, 11.8), 0u);
+    EXPECT_EQ(missedWith(&ShadowFigures::bias, -0.1), 0u);
+    record.pairs[0].shadows = right;
+    EXPECT_THAT(compareTable(record), HasSubstr("independent rays (other errors included, so not judged)"));
+    EXPECT_TRUE(Json::parse(compareJson(record))["pairs"][0]["shadows"]["mostNoise"].is_null());
 }
 
 } // namespace
