@@ -14,6 +14,7 @@
 #include "engine/PrepareView.h"
 #include "scenes/Load.h"
 #include "tests/image/EnvironmentTest.h"
+#include "tests/image/GlassBehindTest.h"
 #include "tests/support/AnimatedModels.h"
 #include "tests/support/GlContext.h"
 #include "tests/support/TestScenes.h"
@@ -208,6 +209,28 @@ TEST_F(Attribution, choicesOfAPointSumToTheWhole) {
         ++choices;
         expected.insert(cause);
         EXPECT_EQ(expectSound(linesOf(scene, settings, Technique::TiledDeferred, {}, choose)), expected);
+    }
+}
+/// Each resolution of shadow maps has a row, and so has the hardware's texture filter.
+TEST_F(Attribution, resolutionsOfShadowMapsAndTheTextureFilterHaveTheirRows) {
+    scenes::Scene scene = sceneOf({});
+    scene.images.push_back(test::checkerImage());
+    scene.materials[0].texture(scenes::TextureSlot::BaseColor).image = 0;
+    frame::FrameSettings settings;
+    settings.sizePixels = {24, 18};
+    for (const int resolutionTexels : {64, 1024}) {
+        SCOPED_TRACE(resolutionTexels);
+        const std::vector<AttributionLine> lines =
+            linesOf(scene, settings, Technique::Forward, {}, [&](frame::FrameSettings& own) {
+                own.filter = frame::TextureFilter::Hardware;
+                own.shadowFilter = frame::ShadowFilter::Pcf;
+                own.shadowMaps.resolutionTexels = resolutionTexels;
+            });
+        EXPECT_EQ(expectSound(lines), (std::set<std::string>{"arithmetic", "shadow", validation::kFilterCause}));
+        EXPECT_TRUE(std::ranges::any_of(lines, [&](const AttributionLine& line) {
+            return line.cause == std::string_view("shadow") &&
+                   line.what.find(std::to_string(resolutionTexels)) != std::string::npos;
+        }));
     }
 }
 /// In an image of one pixel every channel counts: without one of red, green and blue, the cross term would be off by
