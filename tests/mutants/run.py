@@ -44,7 +44,7 @@ OPERATORS = [(" + ", " - "), (" - ", " + "), (" * ", " / "), (" / ", " * "), (" 
              (" | ", " & "), (" >> ", " << "), (" << ", " >> "), (" += ", " -= "), ("min(", "max("), ("max(", "min(")]
 NUMBER = re.compile(r"(?<![\w.\])])(\d+\.\d*(?:[eE][-+]?\d+)?[fF]?|\d+[uU]?)(?![\w.x])")
 STATEMENT = re.compile(r"^\s*(?:if \(.*\) (?:return|continue|break|discard)\b.*;|[\w.\[\]]+ [-+*/|&]?= .*;|(?:return|continue|break);)\s*$")
-SKIPPED = re.compile(r"^\s*(#|//|/\*|\*|layout\b|uniform\b|struct\b|precision\b|static_assert|using |namespace|extern)")
+SKIPPED = re.compile(r"^\s*(#|//|/\*|\*|layout\b|uniform\b|struct\b|precision\b|static_assert|assert|using |namespace|extern)")
 
 
 def codeOf(line):

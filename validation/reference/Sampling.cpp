@@ -39,9 +39,7 @@ glm::dvec3 ByMicrofacets::direction(const glm::dvec2& random) const {
 }
 
 double ByMicrofacets::density(const glm::dvec3& direction) const {
-    const glm::dvec3 sum = direction + toViewer_;
-    if (sum == glm::dvec3(0.0)) return 0.0;
-    const glm::dvec3 half = glm::normalize(sum), local = frame_.in(half);
+    const glm::dvec3 half = glm::normalize(direction + toViewer_), local = frame_.in(half);
     if (!(local.z > 0.0)) return 0.0;
     return distributionGgx(alpha_, local) * local.z / (4.0 * std::abs(glm::dot(half, direction)));
 }
@@ -54,9 +52,7 @@ glm::dvec3 ByPower::direction(const glm::dvec2& random) const {
 }
 
 double ByPower::density(const glm::dvec3& direction) const {
-    const glm::dvec3 sum = direction + toViewer_;
-    if (sum == glm::dvec3(0.0)) return 0.0;
-    const glm::dvec3 half = glm::normalize(sum);
+    const glm::dvec3 half = glm::normalize(direction + toViewer_);
     const double cosine = glm::dot(half, frame_.z);
     if (!(cosine > 0.0)) return 0.0;
     return (exponent_ + 1.0) / (2.0 * pi) * std::pow(cosine, exponent_) / (4.0 * std::abs(glm::dot(half, direction)));

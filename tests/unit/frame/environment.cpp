@@ -45,6 +45,8 @@ TEST(EnvironmentFilter, directionsComeBackFromTheSquareAndEdgesMeet) {
         // Codes are computed in single precision, with a few roundings of 6e-8.
         EXPECT_LT(glm::distance(directionOf(codeOf(glm::vec3(direction))), direction), 1e-6);
     }
+    const glm::dvec3 low = directionOf({0.998, 0.005}), behind = directionOf({-0.998, -0.005});
+    EXPECT_TRUE(low.x > 0.0 && low.y > 0.0 && low.z < 0.0 && behind.x < 0.0 && behind.y < 0.0 && behind.z < 0.0);
     // Corners on the square's edges that map to one direction hold one value.
     const FilteredEnvironment filtered = filterEnvironment(greyMap(64, 32, [](int x, int y) { return x + 100.0 * y; }));
     for (const DividedOctahedron* level : {&filtered.levels.front(), &filtered.levels.back(), &filtered.irradiance}) {

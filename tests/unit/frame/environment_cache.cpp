@@ -78,6 +78,14 @@ std::uint64_t wordHash(const scenes::Image& map, std::size_t words) {
     return value;
 }
 
+TEST(EnvironmentCache, theTableOfLobesIsWrittenOnceAndReadAgain) {
+    test::TempFolder folder;
+    const std::vector<glm::vec4> fresh = cachedLobeTable(folder.path());
+    const std::filesystem::path file = *std::filesystem::directory_iterator(folder.path());
+    std::filesystem::create_hard_link(file, folder.path() / "same");
+    EXPECT_EQ(cachedLobeTable(folder.path()), fresh);
+    EXPECT_EQ(std::filesystem::hard_link_count(file), 2u) << "the file was replaced";
+}
 TEST(EnvironmentCache, aMapThatIsMadeForTheKeyOfAnotherIsNotReadInItsPlace) {
     test::TempFolder folder;
     const scenes::Image map = greyMap(32, 16, [](int x, int y) { return 1.0 + x + 0.1 * y; });

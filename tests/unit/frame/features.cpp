@@ -266,6 +266,20 @@ TEST(Features, ofLightThatEntersAreThoseOfASurfaceWithoutLayersThatPassesLight) 
     EXPECT_FALSE(entered[Feature::SubsurfaceDiffusion]);
 }
 
+TEST(Features, glassPassesLightByALobeIfItMayBeRough) {
+    Material clear;
+    clear.transmission = 1.0f;
+    clear.perceptualRoughness = 0.0f;
+    Material rough = clear, textured = clear, anisotropic = clear, opaque = clear;
+    rough.perceptualRoughness = 0.2f;
+    addTexture(textured, TextureSlot::MetallicRoughness); // a texel may exceed 1
+    anisotropic.anisotropyStrength = 0.5f;
+    opaque = rough;
+    opaque.transmission = 0.0f;
+    EXPECT_TRUE(mayPassByLobe(rough) && mayPassByLobe(textured) && mayPassByLobe(anisotropic));
+    EXPECT_FALSE(mayPassByLobe(clear) || mayPassByLobe(opaque));
+}
+
 TEST(Features, aRequestGivesItsMethodToMaterialsWithASubsurfaceAlone) {
     using Method = scenes::SubsurfaceMethod;
     const auto wraps = [](Method method, scenes::SubsurfaceRequest request, const std::function<void(Material&)>& set) {

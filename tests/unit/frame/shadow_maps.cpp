@@ -83,6 +83,16 @@ TEST_F(MapsTest, facesNeverOverlapAndNeverExceedTheBudget) {
     }
 }
 
+/// A tap reads half of its square and a texel beside it; wider borders waste texels.
+TEST_F(MapsTest, bordersAreAsWideAsTheirTapsAndATexel) {
+    for (const ShadowFilter filter : {ShadowFilter::Hard, ShadowFilter::Pcf})
+        for (const int widthTexels : kShadowWidths) {
+            settings.shadowFilter = filter;
+            settings.shadowMaps.widthTexels = widthTexels;
+            const int reachTexels = filter == ShadowFilter::Hard ? 0 : (widthTexels - 1) / 2 + 1;
+            EXPECT_EQ(shadowTapTexels(settings), reachTexels + 1) << widthTexels;
+        }
+}
 TEST_F(MapsTest, aSmallerBudgetLeavesNearerLightsMoreTexelsAndDropsNone) {
     const scenes::Scene scene = latticeOf(256);
     const ShadowMaps all = mapsWithin(1024.0, scene);

@@ -332,6 +332,11 @@ TEST(VertexStreams, copiesOfLastVerticesKeepAllTheirOtherAttributes) {
     expectSame(full.texCoords[0], bare.texCoords[0], "first coordinates");
     expectSame(full.texCoords[1], bare.texCoords[1], "second coordinates");
     expectSame(full.colors, bare.colors, "colour");
+    scenes::Scene unmapped = scene;
+    unmapped.materials[0].texture(scenes::TextureSlot::Normal).image = scenes::kNone;
+    const VertexStreams neutral = makeVertexStreams(unmapped, allFeatures());
+    EXPECT_GT(neutral.positionsOS.size(), scene.meshes[0].positionsOS.size());
+    EXPECT_EQ(neutral.tangentsOS, std::vector(neutral.positionsOS.size(), glm::vec4(1.0f, 0.0f, 0.0f, 1.0f)));
     ASSERT_EQ(full.facetNormalsOS.size(), full.positionsOS.size());
     for (std::size_t corner = 0; corner < full.indices.size(); corner += 3) {
         glm::dvec3 area(0.0); // by Newell: the sum over the edges

@@ -361,6 +361,12 @@ TEST(ReferenceReflectance, colorsAreBentByTheirOwnIndicesOfRefraction) {
 }
 
 /// Under uniform illumination, reflected and transmitted light are all of it.
+TEST(ReferenceReflectance, aBodyThatAbsorbsAllIsClearWhereNoLightCrossesIt) {
+    SurfacePoint point;
+    point.bodyPerMetre = glm::dvec3(std::numeric_limits<double>::infinity());
+    EXPECT_EQ(leftByBody(point, {0.0, 0.1, 0.0}), glm::dvec3(1.0, 0.0, 1.0));
+}
+
 TEST(ReferenceReflectance, clearGlassLosesNoLight) {
     test::Random random(25);
     for (int i = 0; i < 2000; ++i) {
