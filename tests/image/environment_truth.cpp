@@ -201,6 +201,10 @@ std::vector<EvenCase> evenCases() {
         cloth.sheenColor = glm::vec3(0.8f);
         cloth.sheenPerceptualRoughness = roughness;
     }
+    scenes::Material& satin = add("sheen over a mirror", MaterialModel::MetallicRoughness, 1.0f).material;
+    satin.perceptualRoughness = 0.0f;
+    satin.sheenColor = glm::vec3(0.8f);
+    satin.sheenPerceptualRoughness = 0.5f;
     scenes::Material& lacquer = add("clearcoat", MaterialModel::MetallicRoughness, 0.2f).material;
     lacquer.perceptualRoughness = 0.6f;
     lacquer.clearcoat = 0.9f;

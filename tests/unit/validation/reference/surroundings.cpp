@@ -68,6 +68,26 @@ TEST(ReferenceSurroundings, throughFacetsShowsTheMeanOfTheirLobe) {
     EXPECT_EQ(surroundings.through({&clear, 1}, 0, isHidden), surroundings.radianceOf(clear.direction));
 }
 
+/// Almost smooth facets pass and reflect what a smooth interface does: by Fresnel's amplitudes, sin(a - b) / sin(a + b)
+/// and tan(a - b) / tan(a + b).
+TEST(ReferenceFacets, thatAreFinePassAndReflectWhatFresnelSays) {
+    for (const double ior : {0.7, 1.5, 2.4})
+        for (const double in : {0.3, 0.7, 1.2, 1.45}) {
+            const glm::dvec3 toViewer(std::sin(in), 0.0, std::cos(in));
+            double reflected = 1.0;
+            if (const double sine = std::sin(in) / ior; sine < 1.0) {
+                const double out = std::asin(sine);
+                reflected = 0.5 * (std::pow(std::sin(in - out) / std::sin(in + out), 2.0) +
+                                   std::pow(std::tan(in - out) / std::tan(in + out), 2.0));
+            }
+            const auto whole = [&](Facets::Send send) {
+                return Facets({0.0, 0.0, 1.0}, 1e-4, toViewer, ior, send).whole();
+            };
+            EXPECT_NEAR(whole(Facets::Send::Back), reflected, 2e-3) << ior << ", " << in;
+            EXPECT_NEAR(whole(Facets::Send::Through), 1.0 - reflected, 2e-3) << ior << ", " << in;
+        }
+}
+
 /// Under uniform illumination a white matte surface reflects pi times its radiance (its model has no 1/pi), scaled by
 /// the occlusion texture.
 TEST(ReferenceSurroundings, occlusionLeavesItsShareOfTheirLight) {
