@@ -250,7 +250,6 @@ void Surroundings::makeIrradiances() {
             part.direction = glm::normalize(part.direction);
             parts.push_back(part);
         }
-    irradiances_.resize(std::size_t(kIrradianceRows + 1) * kIrradianceColumns);
     for (int row = 0; row <= kIrradianceRows; ++row)
         for (int column = 0; column < kIrradianceColumns; ++column) {
             const double polar = pi * row / kIrradianceRows, azimuth = 2.0 * pi * column / kIrradianceColumns;
@@ -258,7 +257,7 @@ void Surroundings::makeIrradiances() {
                                     std::sin(polar) * std::sin(azimuth));
             glm::dvec3 sum(0.0);
             for (const Part& part : parts) sum += std::max(glm::dot(normal, part.direction), 0.0) * part.light;
-            irradiances_[std::size_t(row) * kIrradianceColumns + std::size_t(column)] = sum;
+            irradiances_.push_back(sum);
         }
 }
 

@@ -242,6 +242,17 @@ TEST(CameraView, invisibleSurfacesDoNotChangeTheDepthInterval) {
     EXPECT_EQ(depthsOf(1).farMetres, 1000.1);
 }
 
+TEST(CameraView, surfacesThatRoundingMayMoveIntoTheImageExtendTheDepthInterval) {
+    const scenes::Camera camera = farCamera(1e6); // its image shows 1.8 m, roundings may move points by 1 m
+    const glm::dvec3 up(camera.worldFromCamera[1]), back(camera.worldFromCamera[2]);
+    const std::vector<SurfaceBounds> bounds{cube(), cube(1.5 * up - 10.0 * back, 0.1)};
+    const auto farOf = [&](std::size_t count) {
+        return makeCameraView(camera, kSize, LightingSpace::World, glm::vec3(0.0f), {bounds.data(), count})
+            .depths.farMetres;
+    };
+    EXPECT_GT(farOf(2), farOf(1) + 5.0);
+}
+
 TEST(CameraView, theBackgroundIsUncovered) {
     const CameraView view = makeCameraView(perspective(0.1, kEndless), kSize, LightingSpace::World, {1.0f, 2.0f, 3.0f});
     EXPECT_EQ(view.constants.background, glm::vec4(1.0f, 2.0f, 3.0f, 0.0f));

@@ -52,7 +52,7 @@ TEST(TileSet, tilesAreAddedAndRemoved) {
 }
 
 /// A sphere of radius 1 m; u runs around it.
-scenes::Mesh globe(int columns, int rows) {
+scenes::Mesh globe(int columns, int rows, bool isSheared) {
     scenes::Mesh mesh;
     for (int j = 0; j <= rows; ++j) {
         for (int i = 0; i <= columns; ++i) {
@@ -61,7 +61,8 @@ scenes::Mesh globe(int columns, int rows) {
             mesh.positionsOS.emplace_back(
                 glm::dvec3(std::sin(down) * std::cos(around), std::cos(down), -std::sin(down) * std::sin(around)));
             mesh.normalsOS.push_back(mesh.positionsOS.back());
-            mesh.texCoords[0].emplace_back(glm::dvec2(u, v));
+            mesh.texCoords[0].emplace_back(isSheared ? glm::dvec2(0.7 * u + 0.3 * v, 0.3 * u + 0.7 * v)
+                                                     : glm::dvec2(u, v));
         }
     }
     for (int j = 0; j < rows; ++j) {
@@ -77,8 +78,8 @@ scenes::Mesh globe(int columns, int rows) {
 
 /// A globe with its atlas and tiles.
 struct TiledGlobe {
-    explicit TiledGlobe(int columns, const glm::dmat4& worldFromObject = glm::dmat4(1.0))
-        : mesh(globe(columns, columns / 2)), atlas(makeUvAtlas(mesh, worldFromObject, kSide, 8, 16)),
+    explicit TiledGlobe(int columns, const glm::dmat4& worldFromObject = glm::dmat4(1.0), bool isSheared = false)
+        : mesh(globe(columns, columns / 2, isSheared)), atlas(makeUvAtlas(mesh, worldFromObject, kSide, 8, 16)),
           tiles(diffusionTiles(atlas, mesh, worldFromObject)) {}
     scenes::Mesh mesh;
     UvAtlas atlas;
@@ -95,8 +96,8 @@ CameraView cameraAt(const glm::dvec3& eyeWS, const glm::dvec3& targetWS, scenes:
     return makeCameraView(camera, {600, 400}, LightingSpace::World, glm::vec3(0.0f));
 }
 
-TEST(DiffusionTiles, seenTilesHoldEveryTexelThatAPixelMayLookUp) {
-    const auto& [mesh, atlas, tiles] = TiledGlobe(48);
+void expectHoldsEveryTexel(const TiledGlobe& tiled) {
+    const auto& [mesh, atlas, tiles] = tiled;
     std::mt19937 random(2);
     std::uniform_real_distribution<double> share(0.0, 1.0), place(-3.0, 3.0);
     for (int trial = 0; trial < 40; ++trial) {
@@ -142,6 +143,12 @@ TEST(DiffusionTiles, seenTilesHoldEveryTexelThatAPixelMayLookUp) {
             EXPECT_LT(seen.count(), usedTiles(tiles).count());
         }
     }
+}
+
+/// In the sheared atlas triangles are larger than tiles, and none has a side along u or v.
+TEST(DiffusionTiles, seenTilesHoldEveryTexelThatAPixelMayLookUp) {
+    const TiledGlobe straight(48), sheared(6, glm::dmat4(1.0), true);
+    for (const TiledGlobe* globe : {&straight, &sheared}) expectHoldsEveryTexel(*globe);
 }
 
 TEST(DiffusionTiles, mostOfWhatFacesAwayOrLiesOutsideIsLeftOut) {

@@ -136,6 +136,11 @@ TEST(LightPictures, whatLiesBesideTheOutlineIsNotPartOfTheLight) {
     EXPECT_GT(texels[0].g, 0.25f);
     EXPECT_EQ(texels[LIGHT_PICTURE_HEADER_TEXELS].g, 0.25f);
     EXPECT_EQ(texels[2 * LIGHT_PICTURE_HEADER_TEXELS].g, 0.25f);
+    // An outline between all samples of texels shows the whole texture.
+    const scenes::LightCorners thin = test::cornersOf({{-1.0f, 0.01f}, {1.0f, 0.01f}, {1.0f, 0.011f}});
+    const std::vector<ShownPicture> line{
+        {test::lightTexture(4, 4, [](int, int) { return glm::vec3(0.25f); }), LightType::Polygon, thin}};
+    EXPECT_EQ(prefilteredPictures(line)[0].g, 0.25f);
 }
 
 /// Compares with sums over a fine grid.

@@ -71,6 +71,8 @@ TEST(GltfAnimation, aThicknessIsScaledAsTheNodesThatShowIt) {
     EXPECT_FLOAT_EQ(posed(R"([{"mesh": 0}])"), 0.5f);
     EXPECT_FLOAT_EQ(posed(R"([{"mesh": 0, "scale": [3, 3, 3]}])"), 1.5f);
     EXPECT_FLOAT_EQ(posed(R"([{"mesh": 0, "scale": [1, 2, 3]}])"), 0.5f) << "in metres, with a warning";
+    const char* hidden = R"([{"mesh": 0, "scale": [3, 3, 3], "children": [1]}, {"mesh": 0, "scale": [0, 0, 0]}])";
+    EXPECT_FLOAT_EQ(posed(hidden), 1.5f) << "nothing of scale 0 is visible";
 }
 
 TEST(GltfAnimation, pointersReachEveryNumberOfASpotLight) {
