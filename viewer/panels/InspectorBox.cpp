@@ -83,12 +83,17 @@ void drawPins(State& state, const PictureArea& area) {
     }
     list.PopClipRect();
     const float margin = kBesidePoints * area.scale;
-    ImGui::SetNextWindowPos({end.x - margin, area.corner.y + margin}, ImGuiCond_Appearing, {1.0f, 0.0f});
+    // In the middle: titles of views are above, legends below.
+    ImGui::SetNextWindowPos({end.x - margin, area.corner.y + 0.5f * area.size.y}, ImGuiCond_Appearing, {1.0f, 0.5f});
     ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {area.size.x, std::max(area.size.y - 2.0f * margin, margin)});
     std::optional<std::size_t> removed;
     if (ImGui::Begin("Pinned pixels", nullptr,
                      ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoCollapse))
+                         ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoCollapse)) {
+        // A list that has grown stays within the image.
+        const ImVec2 at = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+        ImGui::SetWindowPos({std::clamp(at.x, area.corner.x, std::max(area.corner.x, end.x - margin - size.x)),
+                             std::clamp(at.y, area.corner.y, std::max(area.corner.y, end.y - margin - size.y))});
         for (std::size_t i = 0; i < state.pins.size(); ++i) {
             ImGui::PushID(int(i));
             ImGui::AlignTextToFramePadding();
@@ -103,6 +108,7 @@ void drawPins(State& state, const PictureArea& area) {
             for (const std::string& text : state.pins[i].lines) ImGui::TextUnformatted(text.c_str());
             ImGui::PopID();
         }
+    }
     ImGui::End();
     if (removed) state.pins.erase(state.pins.begin() + std::ptrdiff_t(*removed));
 }
