@@ -106,6 +106,13 @@ TEST_F(BuiltinSky, showsWhatPathsTracedThroughItsAirShow) {
     }
 }
 
+/// At 5 degrees below the horizontal the ground is 2.3 km from the eye at 200 m. Air scatters by 1 % per km of red and
+/// 4 % per km of blue light, so that it hides little.
+TEST_F(BuiltinSky, theGroundBeginsAtTheHorizon) {
+    const glm::dvec3 near = radiance(120.0, 90.0), far = radiance(95.0, 90.0);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(far[c] / near[c], 1.0, 0.06) << c;
+}
+
 /// Luminance (kcd/m2) and chromaticity of a clear sky at the least turbidity that its authors fitted. Source: Preetham,
 /// Shirley and Smits 1999, "A Practical Analytic Model for Daylight", appendix A.2.
 class PreethamSky {
