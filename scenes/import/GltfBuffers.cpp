@@ -132,11 +132,15 @@ std::span<const std::byte> Buffers::buffer(int index) {
     } else {
         document_.fail(place, "has neither a uri nor a binary chunk to be read from");
     }
+    if (!stored.byteLength) {
+        document_.repair(place, "all of its data is read", "the required property 'byteLength' is missing");
+        return bytes;
+    }
     // The binary chunk and exporters' files may be padded at the end (glTF 2.0 section 4.4.3.3).
-    if (bytes.size() < stored.byteLength)
+    if (bytes.size() < *stored.byteLength)
         document_.repair(place, "what lies beyond is left out", "says {} bytes, but its data has only {}",
-                         stored.byteLength, bytes.size());
-    return bytes.first(std::min(stored.byteLength, bytes.size()));
+                         *stored.byteLength, bytes.size());
+    return bytes.first(std::min(*stored.byteLength, bytes.size()));
 }
 
 std::span<const std::byte> Buffers::slice(int index, std::size_t byteOffset, std::size_t byteLength,

@@ -191,7 +191,8 @@ nlohmann::json parseDocument(const std::string& text, const std::string& file, L
         ledger.charge(parsedJsonBytes(mended.text), [&] { return file + ": its JSON"; });
         nlohmann::json parsed = nlohmann::json::parse(mended.text, nullptr, false);
         if (mended.line != 0 && !parsed.is_discarded()) {
-            repairs.note(file, mended.line, "words of no JSON value are null, and the rest is left out", "{}",
+            repairs.note(file, mended.line,
+                         "words of no JSON value are null, characters of none U+FFFD, and the rest is left out", "{}",
                          mended.flaw);
             return parsed;
         }
@@ -322,7 +323,7 @@ Document loadDocument(const std::filesystem::path& file, LoadLedger& ledger, Rep
     if (const auto buffers = checked.find("buffers"); buffers != checked.end())
         for (nlohmann::json& buffer : *buffers) {
             BufferSource& source = document.buffers.emplace_back();
-            source.byteLength = buffer["byteLength"];
+            if (const auto length = buffer.find("byteLength"); length != buffer.end()) source.byteLength = *length;
             if (const auto uri = buffer.find("uri"); uri != buffer.end())
                 source.uri = std::move(uri->get_ref<std::string&>());
         }

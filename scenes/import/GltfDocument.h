@@ -6,7 +6,7 @@ namespace tessera::scenes::gltf {
 
 /// A buffer, which is read on first use.
 struct BufferSource {
-    std::size_t byteLength = 0;
+    std::optional<std::size_t> byteLength; ///< unset: all of its data
     std::optional<std::string> uri;
 };
 

@@ -51,7 +51,7 @@ Sparse
  indices/componentType! code:5121|5123|5125; values! object; values/bufferView! index:bufferViews
  values/byteOffset int:0..
 Buffer {"byteLength": 1}
- byteLength! size:1..; uri+ text
+ byteLength size:1..; uri+ text
 BufferView {"buffer": 0, "byteLength": 1}
  buffer! index:buffers; byteOffset+ size:0..; byteLength! size:1..; byteStride+ size:4..252%4
  extensions/EXT_meshopt_compression+ Meshopt

@@ -103,6 +103,21 @@ void eachOutsideStrings(std::string_view text, Look&& look) {
     }
 }
 
+/// A JSON string with U+FFFD in place of bytes and escapes that are no characters, such as half a surrogate pair.
+std::string mendedString(std::string_view text) {
+    constexpr std::size_t kPairOfEscapes = 12, kEscape = 6;
+    text = text.substr(1, text.size() - (text.size() > 1 && text.back() == '"' ? 2 : 1));
+    std::string mended = "\"";
+    while (!text.empty()) {
+        std::size_t length = std::min(kPairOfEscapes, text.size());
+        while (length > 0 && !json::accept(fmt::format("\"{}\"", text.substr(0, length)))) --length;
+        mended += length > 0 ? text.substr(0, length) : "\\ufffd";
+        if (length == 0) length = text.starts_with("\\u") ? kEscape : text.starts_with('\\') ? 2 : 1;
+        text.remove_prefix(std::min(length, text.size()));
+    }
+    return mended + '"';
+}
+
 std::string_view typeOf(const nlohmann::json& value) {
     if (value.is_null()) return "null";
     if (value.is_boolean()) return "true or false";
@@ -155,8 +170,8 @@ MendedJson mendedJson(std::string_view text) {
         if ((part == "]" || part == "}") && comma != text.npos) {
             mended.text[comma] = ' ';
             replace(at, fmt::format(",{}", part), part);
-        } else if (part.size() > 1 && part.front() != '"' && !json::accept(part)) {
-            replace(at, part, "null");
+        } else if (part.size() > 1 && !json::accept(part)) {
+            replace(at, part, part.front() == '"' ? mendedString(part) : "null");
         } else {
             mended.text += part;
         }

@@ -21,6 +21,13 @@ std::function<bool(const Scene&)> has(auto Material::*member, auto value) {
     return [=](const Scene& scene) { return paintOf(scene).*member == value; };
 }
 
+/// One byte, then characters of two bytes: a cut at an even number of bytes would halve one.
+const std::string kLongName = [] {
+    std::string name = "\"a";
+    while (name.size() < 5000) name += "\u00e9";
+    return name + "z\"";
+}();
+
 const Repaired kRepaired[] = {
     {"/materials/0/pbrMetallicRoughness", R"({"roughnessFactor": 1.5})",
      "is 1.5; it must be at most 1; the nearest bound", has(&Material::perceptualRoughness, 1.0f)},
@@ -37,6 +44,10 @@ const Repaired kRepaired[] = {
      "more than 0 is needed; it is left out",
      has(&Material::attenuationDistanceMetres, Material().attenuationDistanceMetres)},
     {"/materials/0/name", "7", nullptr, has(&Material::name, std::string("material 0"))},
+    {"/materials/0/name", kLongName.c_str(), "has 5000 bytes; its beginning is kept",
+     has(&Material::name, std::string("a") + kLongName.substr(2, 2046))},
+    {"/buffers/0/byteLength", "null", "all of its data is read",
+     [](const Scene& scene) { return scene.meshes.size() == 1; }},
     {"/materials/1", R"({"alphaMode": "CUTOUT"})", nullptr, has(&Material::name, std::string("paint"))},
     {"/meshes/1", "{}", nullptr, [](const Scene& scene) { return scene.meshes.size() == 1; }},
     {"/nodes/0/camera", "-1", "it is left out", [](const Scene& scene) { return scene.meshes.size() == 1; }},
@@ -214,6 +225,16 @@ TEST(GltfRepairs, whatJsonDoesNotHaveIsNull) {
     EXPECT_EQ(paintOf(scene).alphaCutoff, Material().alphaCutoff);
     EXPECT_TRUE(hasWarning(scene, "model.gltf:"));
     EXPECT_THAT(Builder::errorOf(builder.folder.write("model.gltf", text)), HasSubstr("is not JSON"));
+}
+
+TEST(GltfRepairs, charactersThatAreNoneAreReplaced) {
+    Builder builder;
+    builder.material()["name"] = "NAME";
+    std::string text = builder.json.dump();
+    text.replace(text.find("NAME"), 4, "\\ud83d\\ude00 \\ud800\\u0041 \xff\\q \n\xc3\xa9");
+    const Scene scene = underLedger(importGltf, builder.folder.write("model.gltf", text));
+    EXPECT_EQ(paintOf(scene).name, "\U0001f600 \ufffdA \ufffd\ufffd \ufffd\u00e9");
+    EXPECT_TRUE(hasWarning(scene, "characters of none U+FFFD"));
 }
 
 // ---- KHR_node_visibility -------------------------------------------------------------------------------------------
