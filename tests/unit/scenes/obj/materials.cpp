@@ -106,7 +106,8 @@ TEST_F(ObjMaterials, opacityMapsBecomeTheColorsAlpha) {
     EXPECT_EQ(texelsOf(imageOf(grey, TextureSlot::BaseColor)), (Texels{{10, 20, 30, 77}, {40, 50, 60, 77}}));
     const Scene matte = painted("map_d matte.tga\nmap_Kd colour.tga\n");
     EXPECT_EQ(texelsOf(imageOf(matte, TextureSlot::BaseColor)), (Texels{{10, 20, 30, 88}, {40, 50, 60, 88}}));
-    const Scene alone = painted("Kd 0.5 0.5 0.5\nmap_d mask.tga\n");
+    const Scene alone = painted("Kd 0.5 0.5 0.5\nmap_d -s 2 3 mask.tga\n");
+    EXPECT_NE(alone.materials.at(0).texture(TextureSlot::BaseColor).transform, TextureUse().transform);
     EXPECT_EQ(texelsOf(imageOf(alone, TextureSlot::BaseColor)), (Texels{{255, 255, 255, 77}}));
     const Scene same = painted("map_Kd matte.tga\nmap_d matte.tga\n");
     EXPECT_EQ(same.images.size(), 1u);
