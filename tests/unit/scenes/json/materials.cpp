@@ -117,6 +117,9 @@ TEST_F(SceneJsonMaterials, everyModelHasTexturesOfItsParameters) {
         }
         EXPECT_LE(scene.images.size(), 3u) << "each picture is decoded once";
     }
+    const Scene brief = sceneOf(R"("model": "metallic_roughness", "occlusionMap": "pictures/albedo.tga")");
+    EXPECT_EQ(redOf(brief, Occlusion), 10);
+    EXPECT_EQ(brief.materials[0].occlusionStrength, 1.0f);
     EXPECT_FLOAT_EQ(
         materialOf(R"("model": "metallic_roughness", "anisotropyRotationDegrees": 90)").anisotropyRotationRadians,
         std::numbers::pi_v<float> / 2);
