@@ -184,11 +184,13 @@ TEST_F(GlassBehindTruth, raysPassBehindWhatStandsBeforeIt) {
         wall.cameras[0].fovYRadians = 2.0 * std::atan(perMetre);
         wall.cameras[0].worldFromCamera[3].z = kEyeMetres;
         Scene covered = coveredByGlass(wall, bareGlass(kIor), kBehindTiltRadians);
-        scenes::Node& bar = addNode(covered, unlit());
+        scenes::Material bright = unlit();
+        bright.emissive = glm::vec3(50.0f);
+        scenes::Node& bar = addNode(covered, bright);
         placeQuad(bar, kBarZ, 4.0);
         bar.parentFromNode[0] *= kBarMetres / 4.0;
         const std::vector<float> plain = drawn(wall, settings), shown = drawn(covered, settings);
-        int crossing = 0;
+        int crossing = 0, beside = 0;
         expectPlaces(shown, plain, 0.0, 2e-3, [&](int x, int y) -> std::optional<double> {
             const glm::dvec2 begin(metresOf(x), -metresOf(y));
             const glm::dvec3 ray = glm::normalize(glm::dvec3(perMetre * begin, -1.0));
@@ -196,15 +198,20 @@ TEST_F(GlassBehindTruth, raysPassBehindWhatStandsBeforeIt) {
             const glm::dvec3 along = *bentDirection(-ray, kIor, normal);
             const glm::dvec3 onWall = onGlass - (onGlass.z + kBehindWallMetres) / along.z * along;
             const glm::dvec2 place = glm::dvec2(onWall) / halfWidth(-kBehindWallMetres);
-            const auto isClear = [&](double metres) {
-                return std::abs(metres) > kBarMetres / halfWidth(kBarZ) + 1.5 * kBehindPixelMetres;
+            const auto isClear = [&](double metres, double pixels = 1.5) {
+                return std::abs(metres) > kBarMetres / halfWidth(kBarZ) + pixels * kBehindPixelMetres;
             };
+            if (isClear(begin.x) && isClear(place.x, 0.0) && !isClear(place.x, 0.5)) {
+                EXPECT_LT(at(shown, x, y).r, 1.0) << "light of the bar beside it";
+                ++beside;
+            }
             const double rim = std::max(std::abs(place.x), std::abs(place.y));
             if (rim > 1.0 - kBehindPixelMetres || !isClear(begin.x) || !isClear(place.x)) return {};
             crossing += begin.x > 0.0 && place.x < 0.0 ? 1 : 0;
             return place.x;
         });
         EXPECT_GT(crossing, kBehindPixels);
+        EXPECT_GT(beside, 0);
     }
 }
 
