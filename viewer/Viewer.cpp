@@ -349,7 +349,12 @@ private:
 
     void keepInspection(const Requests& requests) {
         const std::vector<std::string> lines = inspectionLines(*facts_.inspection);
-        if (requests.pinInspection) {
+        const auto pin = std::ranges::find(state_.pins, *state_.inspectedPlace(), &PinnedInspection::place);
+        if (pin != state_.pins.end()) {
+            // Lines about the surface follow when the ray has met it.
+            const auto isThere = [&](const std::string& line) { return std::ranges::find(lines, line) != lines.end(); };
+            if (std::ranges::all_of(pin->lines, isThere)) pin->lines = lines;
+        } else if (requests.pinInspection) {
             state_.pins.push_back({*state_.inspectedPlace(), lines});
             log_.line("pinned " + lines.front());
         }

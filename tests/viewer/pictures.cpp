@@ -342,6 +342,10 @@ TEST_F(ViewerPictures, ctrlAndTheWheelMagnifyPixelsAndKeysPinAndCopyTheirValues)
     viewer.key("ctrl+0");
     viewer.pause(1.0);
     EXPECT_TRUE(pictureIn(viewer, size) == whole) << "the camera did not move";
+    viewer.moveTo(kPictureCorner + middle);
+    viewer.wheel(6, "ctrl"); // 64 times, the most
+    viewer.pause(1.0);
+    EXPECT_EQ(pictureIn(viewer, size).at(middle + 32), whole.at(middle));
 }
 
 TEST_F(ViewerPictures, edgesAreSmoothedAtRestAndFilesAreNot) {

@@ -14,7 +14,7 @@ namespace tessera::viewer {
 
 namespace {
 
-void axisRow(OpenScene& open) {
+void axisRow(OpenScene& open, double aspect) {
     row("Look from");
     const auto views = float(axisViews().size());
     const float spacing = ImGui::GetStyle().ItemSpacing.x;
@@ -22,7 +22,7 @@ void axisRow(OpenScene& open) {
     for (const AxisView& view : axisViews()) {
         if (&view != axisViews().data()) ImGui::SameLine();
         if (ImGui::Button(view.name, {width, 0.0f}))
-            open.jumpToHeading(std::string("look ") + view.meaning, view.heading);
+            open.jumpToHeading(std::string("look ") + view.meaning, view.heading, aspect);
         tip(fmt::format("{} (Ctrl+{:c})", view.meaning, char(view.key)));
     }
 }
@@ -93,7 +93,7 @@ void cameraPanel(State& state) {
     ImGui::SameLine();
     if (ImGui::Button("Home")) open.jumpHome();
     tip("Back to the scene's camera");
-    axisRow(open);
+    axisRow(open, state.pictureAspect);
     numberRows(open);
     viewpointRows(state);
 }

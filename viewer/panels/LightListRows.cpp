@@ -52,10 +52,20 @@ void renamingField(State& state) {
         endRenaming(state);
 }
 
+/// Rows under the pointer are grey, selected ones blue.
+void pushHoverColor(bool isSelected) {
+    const ImGuiCol color = isSelected ? ImGuiCol_HeaderHovered : ImGuiCol_TabHovered;
+    ImGui::PushStyleColor(ImGuiCol_HeaderHovered, ImGui::GetStyleColorVec4(color));
+}
+
 void nameCell(State& state, int index, std::span<const int> list) {
     if (state.renamed && state.renamed->light == index) return renamingField(state);
     const std::string name = labelOf(lightLabel(state.open->scene().lights, std::size_t(index)));
-    if (ImGui::Selectable(name.c_str(), state.isLightSelected(index), ImGuiSelectableFlags_AllowDoubleClick)) {
+    const bool isSelected = state.isLightSelected(index);
+    pushHoverColor(isSelected);
+    const bool isClicked = ImGui::Selectable(name.c_str(), isSelected, ImGuiSelectableFlags_AllowDoubleClick);
+    ImGui::PopStyleColor();
+    if (isClicked) {
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
             state.selectedLight = index; // the first click may have deselected it
             beginRenaming(state);
@@ -81,9 +91,12 @@ void groupRow(State& state, const ListedLight& group) {
     const auto isSelected = [&](int light) { return state.isLightSelected(light); };
     ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth |
                                ImGuiTreeNodeFlags_FramePadding | ImGuiTreeNodeFlags_NoTreePushOnOpen;
-    if (std::ranges::all_of(group.lights, isSelected)) flags |= ImGuiTreeNodeFlags_Selected;
+    const bool areSelected = std::ranges::all_of(group.lights, isSelected);
+    if (areSelected) flags |= ImGuiTreeNodeFlags_Selected;
     const std::string label = fmt::format("{} ({})###group", labelOf(group.group), group.lights.size());
+    pushHoverColor(areSelected);
     ImGui::TreeNodeEx(label.c_str(), flags);
+    ImGui::PopStyleColor();
     if (ImGui::IsItemToggledOpen()) {
         if (isOpen)
             state.listing.unfolded.erase(group.group);

@@ -138,7 +138,8 @@ void drawResource(State& state, const Facts& facts, const PictureArea& area) {
         if (isRead && facts.picturesPerSecond && !view.image)
             ImGui::TextDisabled("Of the last idle image (Space: pause)");
         if (!isRead) {
-            paragraph("Read as soon as the image is idle.");
+            paragraph(facts.picturesPerSecond ? "Read when the clip is paused (Space)."
+                                              : "Read as soon as the image is idle.");
         } else if (const ResourceContents& contents = *facts.resource->contents; !contents.fault.empty()) {
             paragraph(contents.fault);
         } else if (contents.isTexture()) {

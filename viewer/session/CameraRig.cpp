@@ -69,10 +69,13 @@ void CameraRig::turnAbout(const glm::dvec3& pivotWS) {
     goTo(pose);
 }
 
-void CameraRig::look(const Heading& heading) {
+void CameraRig::look(const Heading& heading, double aspect) {
     CameraPose pose = mode_ == Mode::Orbit ? orbit_.goal() : fly_.goal();
     const glm::dvec3 pivotWS = pose.eyeWS + pose.focusMetres * pose.heading.forwardWS();
     pose.heading = heading;
+    const bool isWithin = glm::all(glm::lessThanEqual(boundsWS_.min, pose.eyeWS)) &&
+                          glm::all(glm::lessThanEqual(pose.eyeWS, boundsWS_.max));
+    if (!boundsWS_.empty() && !isWithin) return goTo(frameBounds(boundsWS_, pose, start_, aspect));
     pose.eyeWS = pivotWS - pose.focusMetres * heading.forwardWS();
     goTo(pose);
 }

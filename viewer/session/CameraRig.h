@@ -34,8 +34,8 @@ public:
     /// Pans so that orbits turn about a point, which moves to the image centre at its depth. No effect if it lies
     /// behind the eye, or when flying.
     void turnAbout(const glm::dvec3& pivotWS);
-    /// Turns about the pivot to another heading.
-    void look(const Heading& heading);
+    /// Turns to another heading: about the pivot if the eye is within the scene, else with the whole scene in view.
+    void look(const Heading& heading, double aspect);
     /// Moves to a pose, damped.
     void goTo(const CameraPose& pose);
     /// Moves back to the start pose, exactly.

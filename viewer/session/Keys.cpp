@@ -55,7 +55,7 @@ constexpr AxisView kAxisViews[] = {
 template <std::size_t kView>
 void viewAlongAxis(State& state) {
     const AxisView& view = kAxisViews[kView];
-    if (state.open) state.open->jumpToHeading(std::string("look ") + view.meaning, view.heading);
+    if (state.open) state.open->jumpToHeading(std::string("look ") + view.meaning, view.heading, state.pictureAspect);
 }
 
 constexpr int kNone = 0;

@@ -116,8 +116,8 @@ void OpenScene::jumpTo(std::string what, const scenes::Box3& boundsWS, double as
     jump(std::move(what), [&] { rig().frame(boundsWS, aspect); });
 }
 
-void OpenScene::jumpToHeading(std::string what, const Heading& heading) {
-    jump(std::move(what), [&] { rig().look(heading); });
+void OpenScene::jumpToHeading(std::string what, const Heading& heading, double aspect) {
+    jump(std::move(what), [&] { rig().look(heading, aspect); });
 }
 
 void OpenScene::moveCamera(const CameraPose& pose, Gesture gesture) {

@@ -125,8 +125,8 @@ public:
     void jumpToAll(double aspect);
     /// The same for a box; `what` describes the step to the user.
     void jumpTo(std::string what, const scenes::Box3& boundsWS, double aspect);
-    /// Turns about the pivot to a heading.
-    void jumpToHeading(std::string what, const Heading& heading);
+    /// Looks along a heading, as CameraRig::look().
+    void jumpToHeading(std::string what, const Heading& heading, double aspect);
     /// Jumps to a pose that the user edits as numbers, or changes the field of view of a perspective camera.
     void moveCamera(const CameraPose& pose, Gesture gesture);
     void changeFieldOfView(double degrees, Gesture gesture);

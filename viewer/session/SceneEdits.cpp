@@ -173,6 +173,14 @@ void deleteSelectedLights(State& state) {
     std::vector<std::size_t> deleted;
     const Lights& lights = state.open->scene().lights;
     for (const int light : selectedIn(state)) deleted.push_back(std::size_t(light));
+    // The next light as listed is selected, else the one before.
+    const std::vector<int> list = lightsIn(listedLights(lights, state.listing));
+    const auto isDeleted = [&](int light) { return std::ranges::binary_search(deleted, std::size_t(light)); };
+    int next = scenes::kNone;
+    if (const auto behind = std::find_if(list.rbegin(), list.rend(), isDeleted).base(); behind != list.end())
+        next = *behind;
+    else if (const auto kept = std::find_if_not(list.rbegin(), list.rend(), isDeleted); kept != list.rend())
+        next = *kept;
     state.open->deleteLights(deleted.size() == 1 ? fmt::format("delete light '{}'", lightLabel(lights, deleted[0]))
                                                  : fmt::format("delete {} lights", deleted.size()),
                              deleted);
@@ -186,10 +194,9 @@ void deleteSelectedLights(State& state) {
             *solo -= int(before(std::size_t(*solo)));
     }
     for (auto light = deleted.rbegin(); light != deleted.rend(); ++light) state.types.follow(*light, 1, 0);
-    const int left = int(lights.size());
-    const int next = int(deleted.back() + 1 - deleted.size());
     state.selectedLights.clear();
-    state.selectedLight = left == 0 || state.isDragging ? scenes::kNone : std::min(next, left - 1);
+    state.selectedLight =
+        next == scenes::kNone || state.isDragging ? scenes::kNone : next - int(before(std::size_t(next)));
 }
 
 void selectLight(State& state, int index, Choosing choosing, std::span<const int> list) {

@@ -29,7 +29,7 @@ bool Measurements::update(Facts& facts, const State& state, const Screen& screen
         changed = true;
     }
     if (state.compare == Compare::Off) measured_.reset();
-    if (isWhole && state.wantsPlan) changed |= updatePlan(facts, state, screen, wanted);
+    if ((isWhole || !facts.plan) && state.wantsPlan) changed |= updatePlan(facts, state, screen, wanted);
     if (isWhole && screen.shows(wanted)) changed |= updateCounts(facts, screen, wanted);
     if (isWhole && state.compare != Compare::Off && screen.shows(wanted))
         changed |= updateFigures(facts, screen, wanted);

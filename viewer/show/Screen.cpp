@@ -356,7 +356,15 @@ void Screen::show(glm::ivec2 windowPixels, const gpu::Rectangle& area, Compare c
         const glm::ivec2 size = from.sizePixels();
         const bool isScaled = size != glm::ivec2(area.width, area.height) && !magnification.isOn();
         gpu::setScissor({area.x + left, area.y, right - left, area.height});
-        gpu::blitToWindow(from.framebuffer(), {0, 0, size.x, size.y}, whole, isScaled);
+        // Only the visible texels: the whole image, magnified, may exceed the largest rectangle of a driver.
+        const glm::dvec2 perTexel = glm::dvec2(whole.width, whole.height) / glm::dvec2(size);
+        const glm::dvec2 low(area.x - whole.x, area.y - whole.y), high = low + glm::dvec2(area.width, area.height);
+        const glm::ivec2 first = glm::clamp(glm::ivec2(glm::floor(low / perTexel)), glm::ivec2(0), size);
+        const glm::ivec2 last = glm::clamp(glm::ivec2(glm::ceil(high / perTexel)), first, size);
+        const glm::ivec2 begin = glm::round(glm::dvec2(first) * perTexel),
+                         end = glm::round(glm::dvec2(last) * perTexel);
+        gpu::blitToWindow(from.framebuffer(), {first.x, first.y, last.x - first.x, last.y - first.y},
+                          {whole.x + begin.x, whole.y + begin.y, end.x - begin.x, end.y - begin.y}, isScaled);
     };
     if (compare == Compare::Split && isOfOneScene()) {
         const int middle = std::clamp(int(std::lround(divider * float(area.width))), 0, area.width);

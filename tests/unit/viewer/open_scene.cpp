@@ -139,13 +139,24 @@ TEST(OpenScene, looksAlongAnAxisAboutWhatItTurnsAbout) {
     const double metres = opened.open.rig().pose().focusMetres;
     const glm::dvec3 towardsEyeWS[] = {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}};
     for (std::size_t i = 0; i < axisViews().size(); ++i) {
-        opened.open.jumpToHeading("look", axisViews()[i].heading);
+        opened.open.jumpToHeading("look", axisViews()[i].heading, 1.5);
         opened.settle();
         EXPECT_LT(glm::distance(glm::dvec3(opened.shown().worldFromCamera[3]), pivotWS + metres * towardsEyeWS[i]),
                   1e-6)
             << axisViews()[i].name;
         EXPECT_LT(glm::distance(targetOf(opened.open.rig().pose()), pivotWS), 1e-6);
         EXPECT_EQ(opened.said(), opened.shown());
+    }
+}
+
+TEST(OpenScene, looksAlongAnAxisAtAllOfASceneThatItIsOutsideOf) {
+    scenes::Scene scene = tessera::test::quadScene({});
+    scene.cameras = {perspective({-3.2, 1.8, 9.9}, {4, 1, 0})}; // turns about a point beside the quad
+    OpenScene open{"test.json", {}, std::move(scene), {}};
+    for (const AxisView& view : axisViews()) {
+        open.jumpToHeading("look", view.heading, 1.5);
+        test::settle(open);
+        EXPECT_LT(glm::length(targetOf(open.rig().pose())), 1e-6) << view.name;
     }
 }
 

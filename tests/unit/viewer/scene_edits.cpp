@@ -43,6 +43,17 @@ TEST(SceneEdits, theSelectedLightIsTheOneThatGoesAndTheNextIsSelectedThen) {
     EXPECT_TRUE(state.open->isEdited());
 }
 
+TEST(SceneEdits, afterADeletedLightTheNextOfTheSortedListIsSelected) {
+    State state = threeLights();
+    scenes::Light light = lightsOf(state)[2];
+    light.intensity = 100.0f * lightsOf(state)[0].intensity;
+    state.selectedLight = 2;
+    changeSelectedLights(state, light, 1.0, Gesture::Once);
+    state.listing.order = LightOrder::Intensity; // c, a, b
+    deleteSelectedLights(state);
+    EXPECT_EQ(lightsOf(state)[std::size_t(state.selectedLight)].name, "a");
+}
+
 TEST(SceneEdits, severalLightsAreDeletedAndComeBackInOneStep) {
     State state = threeLights();
     const std::vector<scenes::Light> own = lightsOf(state);
