@@ -17,9 +17,11 @@ TEST_F(Transparency, aConvexShellLooksTheSameInAnyOrderOfItsTriangles) {
     tinted.doubleSided = true;
     scenes::Material sheet = tinted;
     tinted.alphaMode = scenes::AlphaMode::Blend;
+    scenes::Material oneSided = tinted;
+    oneSided.doubleSided = false;
     sheet.transmission = 0.8f;
     sheet.perceptualRoughness = 0.0f;
-    for (const scenes::Material& material : {tinted, sheet}) {
+    for (const scenes::Material& material : {tinted, oneSided, sheet}) {
         scenes::Scene scene = ballUnderSky(material);
         scenes::Light& sun = scene.lights.emplace_back();
         sun.type = scenes::LightType::Directional;
