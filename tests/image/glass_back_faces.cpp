@@ -217,6 +217,9 @@ TEST_F(GlassBackFaces, countByDefaultOfClosedMeshes) {
     EXPECT_EQ(frame::FrameSettings().refraction, Refraction::ClosedMeshes);
     EXPECT_EQ(shownWith(Refraction::ClosedMeshes), shownWith(Refraction::BackFaces));
     EXPECT_NE(shownWith(Refraction::ClosedMeshes), shownWith(Refraction::OneSide));
+    scene.meshes.back().indices.resize(scene.meshes.back().indices.size() - 3); // open at one side
+    EXPECT_NE(shownWith(Refraction::BackFaces), shownWith(Refraction::ClosedMeshes)) << "on request of any mesh";
+    scene.meshes.back() = box;
     const Scene pane = coveredByGlass(rampWall(), bareGlass(1.3), -0.3);
     const std::vector<float> alone = drawn(pane, seeing(Refraction::OneSide));
     EXPECT_EQ(drawn(pane, seeing(Refraction::ClosedMeshes)), alone);
