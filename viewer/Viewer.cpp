@@ -105,7 +105,8 @@ private:
         if (now() < glidesFrom()) return isVisible() && !window_.input().empty();
         if (pulse_.settleFrames > 0) return true;
         if (isVisible() && document_.isLoading() && now() >= backgroundShownAt_) return true;
-        if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver())) return true;
+        if (isVisible() && (!window_.input().empty() || measurements_.hasResult() || isNoticeOver() || isDimming()))
+            return true;
         return hasPicturePlace() &&
                (isMoving(state_) || inspector_.isBusy() || (awaitsRest() && now() >= pulse_.restAt));
     }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include "viewer/panels/Handles.h"
 #include "viewer/panels/InspectorBox.h"
@@ -284,6 +285,10 @@ void drawInterface(State& state, const Facts& facts, const PictureArea& area, fl
     questionDialog(state, scale);
     // Nothing is being dragged: the next edit is a separate step.
     if (state.open && !state.isDragging && !ImGui::IsAnyItemActive()) state.open->endGesture();
+}
+
+bool isDimming() {
+    return ImGui::GetTopMostPopupModal() != nullptr && ImGui::GetCurrentContext()->DimBgRatio < 1.0f;
 }
 
 } // namespace tessera::viewer

@@ -18,4 +18,7 @@ std::string pictureTimeText(double ms);
 /// Draws all panels, the status line and the overlays.
 void drawInterface(State& state, const Facts& facts, const PictureArea& area, float scale);
 
+/// Whether a dialog still darkens the window, which takes a few frames.
+bool isDimming();
+
 } // namespace tessera::viewer

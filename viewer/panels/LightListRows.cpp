@@ -188,7 +188,9 @@ void lightList(State& state) {
     ImGui::TableSetupColumn("on", ImGuiTableColumnFlags_WidthFixed);
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("solo", ImGuiTableColumnFlags_WidthFixed);
+    pushHoverColor(false);
     ImGui::TableHeadersRow();
+    ImGui::PopStyleColor();
     ImGuiListClipper clipper; // tens of thousands of rows, few of them visible
     clipper.Begin(int(rows.size()));
     const int row = int(std::ranges::find(rows, selected, &ListedLight::light) - rows.begin());

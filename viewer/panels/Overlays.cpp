@@ -91,8 +91,18 @@ void drawDivider(const State& state, const PictureArea& area, float scale) {
     if (state.compare != Compare::Split) return;
     const float x = area.corner.x + state.divider * area.size.x;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddLine({x, area.corner.y}, {x, area.corner.y + area.size.y}, IM_COL32(235, 240, 250, 200), 1.5f * scale);
-    list.AddCircleFilled({x, area.corner.y + 0.5f * area.size.y}, 6.0f * scale, IM_COL32(235, 240, 250, 230));
+    const auto line = [&](float fromY, float toY) {
+        if (fromY < toY) list.AddLine({x, fromY}, {x, toY}, IM_COL32(235, 240, 250, 200), 1.5f * scale);
+    };
+    // Not through magnified pixels, where it would look like one of the image's edges.
+    const std::optional<Box>& box = state.inspectorBox;
+    const bool isCut = box && x >= box->corner.x && x <= box->corner.x + box->size.x;
+    const float endY = area.corner.y + area.size.y;
+    line(area.corner.y, isCut ? box->corner.y : endY);
+    if (isCut) line(box->corner.y + box->size.y, endY);
+    const float middleY = area.corner.y + 0.5f * area.size.y;
+    if (!isCut || middleY < box->corner.y || middleY > box->corner.y + box->size.y)
+        list.AddCircleFilled({x, middleY}, 6.0f * scale, IM_COL32(235, 240, 250, 230));
     const ImGuiIO& io = ImGui::GetIO();
     const bool isFree = !io.WantCaptureMouse && !ImGui::IsAnyMouseDown();
     if (state.isDividerHeld || (isFree && isAtDivider(state, area, {io.MousePos.x, io.MousePos.y})))
