@@ -4,7 +4,6 @@
 
 #include <fmt/ranges.h>
 
-#include "scenes/Limits.h"
 #include "scenes/import/GltfSchema.h"
 
 namespace tessera::scenes::gltf {
@@ -242,18 +241,6 @@ private:
             value.erase(value.begin() + std::ptrdiff_t(length), value.end());
     }
 
-    /// Shortens a name, so that the importer may append to it.
-    Json label(std::string& text, const Place& place) {
-        constexpr std::size_t kMostBytes = kMostNameBytes / 2;
-        if (text.size() > kMostBytes) {
-            note(place, "its beginning is kept", "has {} bytes", text.size());
-            std::size_t bytes = kMostBytes;
-            while ((text[bytes] & 0xc0) == 0x80) --bytes; // not within a character
-            text.resize(bytes);
-        }
-        return std::move(text);
-    }
-
     Json single(Json& value, const Type& type, bool isValue, const Place& place) {
         switch (type.kind) {
         case Kind::Struct:
@@ -269,7 +256,7 @@ private:
             require(value.is_boolean(), "true or false", value, place);
             return value;
         case Kind::Label:
-            return value.is_string() ? label(value.get_ref<std::string&>(), place) : Json("");
+            return value.is_string() ? std::move(value) : Json("");
         case Kind::Text:
         case Kind::Choice:
             require(value.is_string(), "a string", value, place);

@@ -188,7 +188,7 @@ void VertexColours::read(const Line& line, std::size_t position) {
 
 std::vector<glm::vec3> VertexColours::take(const std::string& file, ObjColours encoding,
                                            const std::vector<bool>& isUsed, Repairs& repairs) {
-    if (colours_.empty() && flaw_.empty()) return {};
+    if (colours_.empty()) return {};
     colours_.resize(isUsed.size(), kMissing);
     std::size_t missing = 0, used = 0;
     float largest = 0.0f;
@@ -200,7 +200,7 @@ std::vector<glm::vec3> VertexColours::take(const std::string& file, ObjColours e
         else
             largest = std::max(largest, largestOf(colours_[i]));
     }
-    if (missing == used && flaw_.empty()) return {};
+    if (missing == used) return {};
     if (missing > 0)
         repairs.note(file, flawLine_, "these are white", "{} of {} vertices have no colour{}{}", missing, used,
                      flaw_.empty() ? "" : ": ", flaw_);
