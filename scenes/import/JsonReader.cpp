@@ -105,14 +105,21 @@ void eachOutsideStrings(std::string_view text, Look&& look) {
 
 /// A JSON string with U+FFFD in place of bytes and escapes that are no characters, such as half a surrogate pair.
 std::string mendedString(std::string_view text) {
-    constexpr std::size_t kPairOfEscapes = 12, kEscape = 6;
     text = text.substr(1, text.size() - (text.size() > 1 && text.back() == '"' ? 2 : 1));
     std::string mended = "\"";
     while (!text.empty()) {
-        std::size_t length = std::min(kPairOfEscapes, text.size());
-        while (length > 0 && !json::accept(fmt::format("\"{}\"", text.substr(0, length)))) --length;
-        mended += length > 0 ? text.substr(0, length) : "\\ufffd";
-        if (length == 0) length = text.starts_with("\\u") ? kEscape : text.starts_with('\\') ? 2 : 1;
+        const bool isControl = static_cast<unsigned char>(text.front()) < 0x20;
+        std::size_t good = isControl ? 0 : letterBytes(text), length = std::max(good, std::size_t{1});
+        if (text.front() == '\\') {
+            constexpr std::size_t kLengths[] = {12, 6, 2}; // a surrogate pair, \u and four digits, others
+            const auto isEscape = [&](std::size_t bytes) {
+                return json::accept(fmt::format("\"{}\"", text.substr(0, bytes)));
+            };
+            const auto* const found = std::ranges::find_if(kLengths, isEscape);
+            good = found != std::end(kLengths) ? *found : 0;
+            length = good > 0 ? good : text.starts_with("\\u") ? 6 : 2;
+        }
+        mended += good > 0 ? text.substr(0, good) : "\\ufffd";
         text.remove_prefix(std::min(length, text.size()));
     }
     return mended + '"';

@@ -1,5 +1,7 @@
+#include <chrono>
 #include <cmath>
 
+#include "scenes/import/JsonReader.h"
 #include "tests/unit/scenes/gltf/GltfBuilder.h"
 
 /// Scenes imported from flawed files. Tests of each kind of content cover their warnings and strict refusals.
@@ -226,6 +228,10 @@ TEST(GltfRepairs, charactersThatAreNoneAreReplaced) {
     const Scene scene = underLedger(importGltf, builder.folder.write("model.gltf", text));
     EXPECT_EQ(paintOf(scene).name, "\U0001f600 \ufffdA \ufffd\ufffd \ufffd\u00e9");
     EXPECT_TRUE(hasWarning(scene, "characters of none U+FFFD"));
+    const auto begin = std::chrono::steady_clock::now();
+    const std::string broken(2'000'000, '\xff');
+    EXPECT_EQ(mendedJson('"' + broken + '"').text.size(), 2 + 6 * broken.size());
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
 }
 
 // ---- KHR_node_visibility -------------------------------------------------------------------------------------------
