@@ -83,8 +83,8 @@ TEST(ReferenceFacets, thatAreFinePassAndReflectWhatFresnelSays) {
             const auto whole = [&](Facets::Send send) {
                 return Facets({0.0, 0.0, 1.0}, 1e-4, toViewer, ior, send).whole();
             };
-            EXPECT_NEAR(whole(Facets::Send::Back), reflected, 2e-3) << ior << ", " << in;
-            EXPECT_NEAR(whole(Facets::Send::Through), 1.0 - reflected, 2e-3) << ior << ", " << in;
+            EXPECT_NEAR(whole(Facets::Send::Back), reflected, 1e-4) << ior << ", " << in;
+            EXPECT_NEAR(whole(Facets::Send::Through), 1.0 - reflected, 1e-4) << ior << ", " << in;
         }
 }
 
