@@ -160,22 +160,49 @@ TEST_F(AreaShadows, ofATubeAreWideAlongItAndNarrowAcrossIt) {
     EXPECT_LT(along / across, 10.0);
 }
 
-/// The shadow of a tube is that of disks that face the point, all along its axis. If the axis is parallel to the
-/// plate's edge, the plane through a point and that edge cuts all disks at the same distance from their centres.
+/// The visible fraction of a tube, whose shadow is that of disks that face the point, all along its axis. The plane
+/// through the point and the plate's edge cuts each at its distance from that disk's centre, all alike if the axis is
+/// parallel to the edge.
+double shareOfTube(const scenes::Light& tube, const glm::dvec3& pointWS) {
+    const glm::dvec3 toMiddle = tube.positionWS - pointWS, edgeWS(kEdgeX, 0.0, 0.5);
+    // Perpendicular to the edge and to the ray past it, towards the visible side, which is -x.
+    const glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), pointWS - edgeWS));
+    const double metres = glm::dot(normal, toMiddle);
+    const double sine = std::sqrt(1.0 - metres * metres / glm::dot(toMiddle, toMiddle));
+    const double alongMetres = 0.5 * double(tube.lengthMetres) * glm::dot(normal, tube.directionWS);
+    constexpr int kDisks = 64;
+    double sum = 0.0;
+    for (int i = 0; i < kDisks; ++i)
+        sum += shareOfCircle((metres + ((2.0 * i + 1.0) / kDisks - 1.0) * alongMetres) /
+                             (double(tube.radiusMetres) * sine));
+    return sum / kDisks;
+}
+
 TEST_F(AreaShadows, ofATubeAlongAnEdgeAreThoseOfDisksThatFaceThePoint) {
-    constexpr double kRadiusMetres = 0.05;
     scenes::Light light = lampOverTheFloor(LightType::Tube);
-    light.radiusMetres = float(kRadiusMetres);
+    light.radiusMetres = 0.05f;
     light.lengthMetres = 0.7f;
     light.directionWS = {0.0, 1.0, 0.0};
-    expectSharesAt("tube", light, [&](const glm::dvec3& pointWS) {
-        const glm::dvec3 toMiddle = light.positionWS - pointWS, edgeWS(kEdgeX, 0.0, 0.5);
-        // Perpendicular to the edge and to the ray past it, towards the visible side, which is -x.
-        const glm::dvec3 normal = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), pointWS - edgeWS));
-        const double metres = glm::dot(normal, toMiddle);
-        const double sine = std::sqrt(1.0 - metres * metres / glm::dot(toMiddle, toMiddle));
-        return shareOfCircle(metres / (kRadiusMetres * sine));
-    });
+    expectSharesAt("tube", light, [&](const glm::dvec3& pointWS) { return shareOfTube(light, pointWS); });
+}
+
+/// Of a tube as wide as long, places along its axis that follow from those on its disks bias the darker and the
+/// brighter half of its shadow against each other.
+TEST_F(AreaShadows, ofAWideTubeTakePlacesOnItsDisksAndAlongItsAxisThatAreIndependent) {
+    scenes::Light light = lampOverTheFloor(LightType::Tube);
+    light.radiusMetres = 0.15f;
+    light.lengthMetres = 0.3f;
+    light.directionWS = {1.0, 0.0, 0.0};
+    double sums[2] = {}, squares[2] = {};
+    for (const FloorShare& share : sharesOf(light, 1)) {
+        const double truth = shareOfTube(light, share.pointWS), error = share.seen - truth;
+        sums[truth < 0.5] += error;
+        squares[truth < 0.5] += error * error;
+    }
+    for (const int half : {0, 1}) {
+        EXPECT_GT(squares[half], 100.0);
+        EXPECT_LE(std::abs(sums[half]), 4.0 * std::sqrt(squares[half])) << "four standard errors";
+    }
 }
 
 /// Every type of light with both techniques and without pruning; in a short sweep with one of them in turn, and every
