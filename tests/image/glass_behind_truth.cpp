@@ -241,6 +241,34 @@ TEST_F(GlassBehindTruth, raysPassBehindTheEdgeOfWhatLeans) {
     EXPECT_GE(passing, kBehindPixels);
 }
 
+/// A bar between glass and wall that faces the viewer, its edges between pixels. Rays of one column reach the right
+/// edge just less or just more than four pixels behind it: the former hit it, the latter continue to the wall.
+TEST_F(GlassBehindTruth, raysHitAnEdgeUpToFourPixelsBeforeThem) {
+    constexpr double kIor = 2.4, kBarMetres = 5.0 * kBehindPixelMetres; // half its width
+    constexpr int kColumn = kBehindPixels / 2 + 5 + 2;
+    const double bend = std::tan(kBehindTiltRadians - std::asin(std::sin(kBehindTiltRadians) / kIor));
+    const double begin = metresOf(kColumn), beginZ = -begin * std::tan(kBehindTiltRadians);
+    const Scene wall = rampWall();
+    const frame::FrameSettings settings = seeing(Refraction::OneSide);
+    const std::vector<float> plain = drawn(wall, settings);
+    for (const double pixels : {3.98, 4.02}) {
+        Scene covered = coveredByGlass(wall, bareGlass(kIor), kBehindTiltRadians);
+        scenes::Material bright = unlit();
+        bright.emissive = glm::vec3(50.0f);
+        scenes::Node& bar = addNode(covered, bright);
+        placeQuad(bar, beginZ - (begin - kBarMetres) / bend + pixels * kBehindPixelMetres, kBarMetres);
+        bar.parentFromNode[1] *= 4.0 / kBarMetres;
+        const std::vector<float> shown = drawn(covered, settings);
+        if (pixels > 4.0)
+            expectPlaces(shown, plain, 0.0, 2e-3, [&](int x, int) -> std::optional<double> {
+                if (x != kColumn) return {};
+                return begin - (kBehindWallMetres + beginZ) * bend;
+            });
+        else
+            for (int y = 0; y < kBehindPixels; ++y) ASSERT_GT(at(shown, kColumn, y).r, 2.0) << y;
+    }
+}
+
 /// A bar between glass and wall whose edge shifts by a pixel every six rows. Rays that run down and to the left reach
 /// these steps from the side, far behind: they continue to the wall.
 TEST_F(GlassBehindTruth, raysPassBehindTheStepsOfAnEdge) {
