@@ -175,7 +175,7 @@ Scene ballScene(const scenes::Material& glass, double halfHeightMetres) {
     return scene;
 }
 
-class GlassRough : public GlassTest {
+class GlassRough : public GlassBehindTest {
 protected:
     struct Found {
         double mean, worst;
@@ -337,6 +337,23 @@ TEST_F(GlassRough, ofOneOrTwoSidesSpreadsAsFarAsWaltersIntegral) {
         fmt::print("{} sides of index {}: {:.4f}, Walter's integral {:.4f}\n", slab.isClosed ? 2 : 1, slab.ior, shown,
                    wanted);
         EXPECT_NEAR(shown / wanted, 1.0, slab.tolerance) << slab.ior << ", " << slab.isClosed;
+    }
+}
+
+/// A bright square on a black wall, about as wide as the lobe: measured within 4 % in its middle.
+TEST_F(GlassRough, ofOneSideBlursASquareOnAWallAsWaltersIntegral) {
+    constexpr double kHalfMetres = 4.0 * kBehindPixelMetres; // of the square
+    for (const auto& [ior, roughness] : {std::pair(1.5, 0.4), {2.4, 0.25}}) {
+        Scene wall = wallScene(uniformImage({0, 0, 0, 255}), 4.0);
+        placeQuad(addNode(wall, unlit()), 1e-3 - kBehindWallMetres, kHalfMetres);
+        const std::vector<float> shown =
+            drawn(coveredByGlass(wall, bareGlass(ior, roughness)), seeing(Refraction::OneSide));
+        const double wanted =
+            throughSlab(ior, roughness * roughness, false, 1 << 14, [](const glm::dvec3&, const glm::dvec3& way) {
+                return std::max(std::abs(way.x), std::abs(way.y)) * kBehindWallMetres < -way.z * kHalfMetres ? 1.0
+                                                                                                             : 0.0;
+            });
+        EXPECT_NEAR(*pixelAt(shown, kBehindPixels, kBehindPixels / 2, kBehindPixels / 2), wanted, 0.08 * wanted) << ior;
     }
 }
 
