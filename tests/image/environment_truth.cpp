@@ -1,5 +1,6 @@
 // Environment light against the reference and published tables.
 #include <iterator>
+#include <numbers>
 
 #include "tests/image/AreaLightTest.h"
 #include "tests/image/EnvironmentTest.h"
@@ -283,6 +284,31 @@ void EnvironmentTruth::expectEven(const std::vector<EvenCase>& cases, bool compe
 /// known number.
 TEST_F(EnvironmentTruth, everyModelReflectsEvenLightAsTheReferenceDoes) {
     expectEven(evenCases(), false);
+}
+
+/// Wrapped light in front of a matte surface adds its wrap to the light of even skies, and half of it where the sky
+/// behind is black: as if both sides had the mean of their irradiances.
+TEST_F(EnvironmentTruth, wrappedLightIsThatOfTheMeanOfFrontAndBack) {
+    constexpr float kWrap = 0.8f;
+    scenes::Material skin = lambert();
+    skin.subsurface.method = scenes::SubsurfaceMethod::Wrap;
+    skin.subsurface.wrap = kWrap;
+    skin.subsurface.wrapTint = {1.0f, 0.5f, 0.0f};
+    skin.subsurface.bodyRadiusMetres = 1.0f;
+    scenes::Scene scene = quadScene(skin);
+    makeOrthographic(scene.cameras[0], 0.5);
+    for (const bool isEven : {true, false}) {
+        scene.environment = environmentOf(64, 32, [&](int x, int y) {
+            const bool isFront = scenes::directionInMap({(x + 0.5) / 64.0, (y + 0.5) / 32.0}).z > 0.0;
+            return glm::dvec3(isEven || isFront ? 1.0 : 0.0);
+        });
+        const std::vector<float> seen = drawn(scene, ofSize(4, 4));
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double wrap = double(kWrap) * double(skin.subsurface.wrapTint[int(c)]);
+            const double wanted = std::numbers::pi * (1.0 + (isEven ? wrap : 0.5 * wrap)); // without 1/pi
+            EXPECT_NEAR(seen[c], wanted, 5e-4 * wanted) << isEven << ", " << c;
+        }
+    }
 }
 
 /// Light scattered between microfacets leaves through the layers above them: without these, a coat is off by 21 % with
