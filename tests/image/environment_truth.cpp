@@ -221,6 +221,12 @@ std::vector<EvenCase> evenCases() {
         brass.material.anisotropyRotationRadians = glm::radians(float(degrees));
         brass.splitSumError = kFacetsError;
     }
+    // Measured 1 %; with another start of the 24 microfacets' azimuths 3 to 5 %.
+    EvenCase& fluted = add("brushed to the utmost", MaterialModel::MetallicRoughness, 1.0f);
+    fluted.material.perceptualRoughness = 0.5f;
+    fluted.material.anisotropyStrength = 1.0f;
+    fluted.material.anisotropyRotationRadians = glm::radians(90.0f);
+    fluted.splitSumError = kFacetsError;
     return cases;
 }
 
