@@ -205,6 +205,33 @@ TEST_F(AreaShadows, ofAWideTubeTakePlacesOnItsDisksAndAlongItsAxisThatAreIndepen
     }
 }
 
+/// The filter pcss searches for casters as if they were half-way to the lamp. A plate nearer to it has a wider
+/// penumbra, which ends abruptly where its edge leaves the search, on both sides: seen from the lamp, a radius per
+/// metre aside.
+TEST_F(AreaShadows, byPcssOfAPlateNearALampEndAbruptlyOnBothSides) {
+    constexpr double kRadiusMetres = 0.06, kPlateMetres = 0.8, kTexelMetres = 2.0 / 1024.0;
+    scenes::Light lamp = pointLight({0.0, 0.0, 1.0}, 1.0f);
+    lamp.radiusMetres = float(kRadiusMetres);
+    lamp.castsShadow = true;
+    scenes::Scene scene = floorUnderAPlate(lamp, 0.0, kFloorHalfHeight);
+    scene.nodes[1].parentFromNode[3].z = kPlateMetres;
+    frame::FrameSettings settings = withView(ofSize(kFloorPixels), frame::DebugView::Shadow);
+    settings.shadowFilter = frame::ShadowFilter::Pcss;
+    settings.shadowSamples = 64;
+    settings.shadowMaps.resolutionTexels = 1024;
+    const std::vector<float> seen = drawn(scene, settings);
+    int between = 0;
+    for (int x = 0; x < kFloorPixels.x; ++x) {
+        const double metres = (x + 0.5 - 0.5 * kFloorPixels.x) * 2.0 * kFloorHalfHeight / kFloorPixels.y;
+        const float share = *pixelAt(seen, kFloorPixels.x, x, kFloorPixels.y / 2);
+        if (std::abs(metres) > kRadiusMetres + kTexelMetres)
+            EXPECT_EQ(share, metres < 0.0 ? 1.0f : 0.0f) << metres;
+        else
+            between += share > 0.3f && share < 0.7f;
+    }
+    EXPECT_GT(between, 5);
+}
+
 /// Every type of light with both techniques and without pruning; in a short sweep with one of them in turn, and every
 /// second type without pruning.
 TEST_SWEEP(AreaShadows, areTheSameToTheLastBitWithEveryTechniqueAndWithWhatTheSceneDoesNotNeed) {
