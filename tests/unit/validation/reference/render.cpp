@@ -94,6 +94,52 @@ TEST(ReferenceRender, trianglesACentimetreApartAreNotInOnePlaceHoweverFarTheEyeI
     }
 }
 
+/// Corners lie within a thousandth of a pixel of pixels' centres, so that edges pass many centres as closely.
+TEST(ReferenceRender, trianglesCoverThePixelsWhoseCentresLieWithinTheirOutlines) {
+    constexpr int kPixels = 16;
+    constexpr double kEyeMetres = 3.0;
+    test::Random random(71);
+    int covered = 0, close = 0;
+    for (int i = 0; i < 100; ++i) {
+        const bool isLens = i % 2 == 0;
+        scenes::Scene scene = scenes::tinyScene();
+        scene.materials[0].doubleSided = true;
+        glm::dvec2 outline[3]; // pixels
+        for (int c = 0; c < 3; ++c) {
+            const double ahead = random.between(2.0, 4.0), metres = 2.0 / kPixels * (isLens ? ahead / kEyeMetres : 1.0);
+            outline[c] = glm::dvec2(random.index(kPixels), random.index(kPixels)) + 0.5 +
+                         glm::dvec2(random.between(-1e-3, 1e-3), random.between(-1e-3, 1e-3));
+            const glm::dvec2 placed = (outline[c] - 0.5 * kPixels) * glm::dvec2(metres, -metres);
+            scene.meshes[0].positionsOS[std::size_t(c)] = glm::dvec3(placed, kEyeMetres - ahead);
+        }
+        Settings settings;
+        settings.sizePixels = {kPixels, kPixels};
+        settings.camera.projection = isLens ? scenes::Projection::Perspective : scenes::Projection::Orthographic;
+        settings.camera.halfHeightMetres = 1.0;
+        settings.camera.fovYRadians = 2.0 * std::atan(1.0 / kEyeMetres);
+        settings.camera.worldFromCamera[3] = {0.0, 0.0, kEyeMetres, 1.0};
+        const Rendered rendered = render(scene, settings);
+        for (int y = 0; y < kPixels; ++y)
+            for (int x = 0; x < kPixels; ++x) {
+                double least = 1e9, most = -1e9; // pixels from the centre to the edges' lines, by their sides
+                for (int c = 0; c < 3; ++c) {
+                    const glm::dvec2 from = outline[c], edge = outline[(c + 1) % 3] - from;
+                    const glm::dvec2 to = glm::dvec2(x + 0.5, y + 0.5) - from;
+                    const double beside = (edge.x * to.y - edge.y * to.x) / std::max(glm::length(edge), 1e-9);
+                    least = std::min(least, beside);
+                    most = std::max(most, beside);
+                }
+                if (std::min(std::abs(least), std::abs(most)) < 1e-5) continue; // roundings of corners
+                const bool isWithin = least > 0.0 || most < 0.0;
+                ASSERT_EQ(rendered.covered[std::size_t(y * kPixels + x)] != 0, isWithin) << i << ": " << x << ", " << y;
+                covered += isWithin;
+                close += std::min(std::abs(least), std::abs(most)) < 1e-3;
+            }
+    }
+    EXPECT_GT(covered, 1000);
+    EXPECT_GT(close, 300);
+}
+
 TEST(ReferenceRender, geometryOutsideThePictureCostsParallelRaysNoDigits) {
     for (const double farMetres : {1e4, 1e6, 1e8}) {
         scenes::Scene scene;
