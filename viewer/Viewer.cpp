@@ -350,15 +350,8 @@ private:
 
     void keepInspection(const Requests& requests) {
         const std::vector<std::string> lines = inspectionLines(*facts_.inspection);
-        const auto pin = std::ranges::find(state_.pins, *state_.inspectedPlace(), &PinnedInspection::place);
-        if (pin != state_.pins.end()) {
-            // Lines about the surface follow when the ray has met it.
-            const auto isThere = [&](const std::string& line) { return std::ranges::find(lines, line) != lines.end(); };
-            if (std::ranges::all_of(pin->lines, isThere)) pin->lines = lines;
-        } else if (requests.pinInspection) {
-            state_.pins.push_back({*state_.inspectedPlace(), lines});
-            log_.line("pinned " + lines.front());
-        }
+        keepPin(state_.pins, *state_.inspectedPlace(), lines, requests.pinInspection);
+        if (requests.pinInspection) log_.line("pinned " + lines.front());
         if (!requests.copyInspection) return;
         window_.setClipboard(fmt::format("{}", fmt::join(lines, "\n")));
         state_.notice = {"Copied the values of pixel " + lines.front(), false};

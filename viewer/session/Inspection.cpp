@@ -1,5 +1,6 @@
 #include "viewer/session/Inspection.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -80,6 +81,16 @@ std::vector<std::string> inspectionLines(const Inspection& inspection) {
         lines.push_back(
             fmt::format("{} light{} reach{} it", reaching, reaching == 1 ? "" : "s", reaching == 1 ? "es" : ""));
     return lines;
+}
+
+void keepPin(std::vector<PinnedInspection>& pins, const glm::vec2& place, const std::vector<std::string>& lines,
+             bool isRequested) {
+    const auto pin = std::ranges::find(pins, place, &PinnedInspection::place);
+    const auto isKnown = [&](const std::string& line) { return std::ranges::find(lines, line) != lines.end(); };
+    if (pin == pins.end() && isRequested)
+        pins.push_back({place, lines});
+    else if (pin != pins.end() && (isRequested || std::ranges::all_of(pin->lines, isKnown)))
+        pin->lines = lines;
 }
 
 std::optional<InspectedSurface> surfaceAt(const scenes::Scene& scene, const scenes::Camera& camera,

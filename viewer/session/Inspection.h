@@ -53,6 +53,17 @@ std::optional<std::size_t> visitsOf(const InspectedSurface& surface, std::option
 /// The lines of text that describe an inspection.
 std::vector<std::string> inspectionLines(const Inspection& inspection);
 
+/// Values of an inspected pixel, kept until removed.
+struct PinnedInspection {
+    glm::vec2 place{0.0f}; ///< in the image, a fraction of its size
+    std::vector<std::string> lines;
+};
+
+/// Pins the lines of a place on request; a place has one pin. Else completes a pin that was made before its surface was
+/// found.
+void keepPin(std::vector<PinnedInspection>& pins, const glm::vec2& place, const std::vector<std::string>& lines,
+             bool isRequested);
+
 /// The surface that a camera of the scene shows at a pixel, with the lights at a time; none without a surface. Vertices
 /// that a hook moves keep their unmoved positions.
 std::optional<InspectedSurface> surfaceAt(const scenes::Scene& scene, const scenes::Camera& camera,

@@ -10,6 +10,7 @@
 #include "viewer/edit/LightListing.h"
 #include "viewer/edit/Scatter.h"
 #include "viewer/session/FileDialog.h"
+#include "viewer/session/Inspection.h"
 #include "viewer/session/Look.h"
 #include "viewer/session/Magnification.h"
 #include "viewer/session/OpenScene.h"
@@ -54,12 +55,6 @@ struct Box {
         return glm::all(glm::lessThan(corner, other.corner + other.size)) &&
                glm::all(glm::lessThan(other.corner, corner + size));
     }
-};
-
-/// Values of an inspected pixel, kept until removed.
-struct PinnedInspection {
-    glm::vec2 place{0.0f}; ///< in the image, a fraction of its size
-    std::vector<std::string> lines;
 };
 
 /// A line for the user: a finished action, or an error with its remedy.

@@ -145,5 +145,24 @@ TEST(Inspection, theShadingNormalLiesBetweenTheVerticesNormalsUnlessAMapReplaces
     EXPECT_LT(glm::distance(inspected().faceNormalWS, glm::dvec3(0.0, 0.0, 1.0)), 1e-9);
 }
 
+TEST(Inspection, aPlaceHasOnePinWhichIsCompletedButKeepsItsValues) {
+    std::vector<PinnedInspection> pins;
+    const glm::vec2 place(0.5f), other(0.25f);
+    const auto keep = [&](std::vector<std::string> lines, bool isRequested) {
+        keepPin(pins, place, lines, isRequested);
+    };
+    keep({"linear 1"}, false);
+    EXPECT_TRUE(pins.empty());
+    keep({"linear 1"}, true);
+    keep({"linear 1", "depth 2"}, false);
+    EXPECT_EQ(pins.at(0).lines.size(), 2u) << "the surface was found";
+    keep({"linear 3", "depth 2"}, false);
+    EXPECT_EQ(pins.at(0).lines[0], "linear 1") << "an edit changes no pin";
+    keep({"linear 3", "depth 2"}, true);
+    keepPin(pins, other, {"linear 4"}, true);
+    ASSERT_EQ(pins.size(), 2u);
+    EXPECT_EQ(pins[0].lines[0], "linear 3");
+}
+
 } // namespace
 } // namespace tessera::viewer
